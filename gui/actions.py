@@ -1,0 +1,108 @@
+"""QActions made from the table of commands, kept right after every change: menus, toolbars and the palette share them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from PySide6.QtCore import QObject, Qt, Signal
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
+from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar, QWidget
+
+from ..model.document.commands import Command
+from ..model.document.errors import Refusal
+from .icons import icon
+
+MENUS = ("File", "Edit", "Add", "Combine", "View", "Help")
+
+
+class Actions(QObject):
+    """One action a command, by the command's name. `refused` carries the words of a command that could not be done."""
+
+    refused = Signal(str)
+
+    def __init__(self, owner: QWidget) -> None:
+        super().__init__(owner)
+        self._owner = owner
+        self._entries: dict[str, tuple[Command, object, QAction]] = {}
+        self._groups: dict[str, QActionGroup] = {}
+
+    def add(self, commands: Iterable[Command], context: object) -> None:
+        """Make the actions of these commands; `context` is what their functions take."""
+        for command in commands:
+            action = QAction(icon(command.icon), command.title, self._owner)
+            action.setObjectName(command.name)
+            if command.shortcut:
+                action.setShortcuts([QKeySequence(keys) for keys in command.shortcut.split("; ")])
+            action.setShortcutContext(Qt.ShortcutContext.WindowShortcut)
+            action.setIconVisibleInMenu(bool(command.icon))
+            if command.checked is not None:
+                action.setCheckable(True)
+                if "/" in command.menu:  # a submenu of switches is a choice of one
+                    self._groups.setdefault(command.menu, QActionGroup(self)).addAction(action)
+            action.triggered.connect(lambda _=False, name=command.name: self.run(name))
+            self._owner.addAction(action)
+            self._entries[command.name] = (command, context, action)
+
+    def __getitem__(self, name: str) -> QAction:
+        return self._entries[name][2]
+
+    def commands(self) -> list[Command]:
+        return [command for command, _, _ in self._entries.values()]
+
+    def fault(self, name: str) -> str | None:
+        """Why the command cannot be used now, or None."""
+        command, context, _ = self._entries[name]
+        return command.fault(context)
+
+    def run(self, name: str) -> None:
+        command, context, _ = self._entries[name]
+        try:
+            fault = command.fault(context)
+            if fault:
+                raise Refusal(f"{command.title}: {fault}")
+            command.run(context)
+        except Refusal as refusal:
+            self.refused.emit(str(refusal))
+        self.refresh()
+
+    def refresh(self) -> None:
+        """Bring every action's state, words and reason up to date."""
+        for command, context, action in self._entries.values():
+            fault = command.fault(context)
+            action.setEnabled(fault is None)
+            action.setToolTip(tool_tip(command, action, fault))
+            action.setStatusTip(f"{command.title}: {fault}" if fault else command.tip)
+            if command.checked is not None:
+                action.setChecked(command.checked(context))
+
+    def fill_menu_bar(self, bar: QMenuBar) -> dict[str, QMenu]:
+        """A menu for every first part of the commands' places, and submenus; by place, such as `View/Style`."""
+        menus: dict[str, QMenu] = {}
+        for title in MENUS:
+            menus[title] = bar.addMenu(f"&{title}")
+            menus[title].setToolTipsVisible(True)
+        for command, _, action in self._entries.values():
+            title, _, sub = command.menu.partition("/")
+            if sub and command.menu not in menus:
+                menus[command.menu] = menus[title].addMenu(sub)
+                menus[command.menu].setToolTipsVisible(True)
+            menus[command.menu].addAction(action)
+        return menus
+
+    def fill_tool_bar(self, bar: QToolBar, names: Iterable[str]) -> None:
+        """Buttons by name; an empty name makes a separator."""
+        for name in names:
+            if name:
+                bar.addAction(self[name])
+            else:
+                bar.addSeparator()
+
+
+def tool_tip(command: Command, action: QAction, fault: str | None) -> str:
+    keys = ", ".join(key.toString(QKeySequence.SequenceFormat.NativeText) for key in action.shortcuts())
+    lines = [f"<b>{command.title}</b>" + (f"&nbsp;&nbsp;{keys}" if keys else "")]
+    if command.tip:
+        lines.append(command.tip)
+    if fault:
+        lines.append(f"<i>Not now: {fault}</i>")
+    return "<p style='white-space:pre'>" + "<br>".join(lines) + "</p>"

@@ -1,0 +1,1 @@
+"""The docks of the window: tree, properties, parameters, problems, script. Imports Qt; no VTK."""

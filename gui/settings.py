@@ -1,0 +1,73 @@
+"""What the window remembers between two runs: layout, theme, recent files, the last folder."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, QSettings
+
+RECENT = 10
+LAYOUT_VERSION = 1
+
+
+class Settings:
+    """A typed face of QSettings. Nothing here is part of a document."""
+
+    def __init__(self, store: QSettings | None = None) -> None:
+        if store is None:
+            store = QSettings(QSettings.Format.IniFormat, QSettings.Scope.UserScope, "Solidtree", "Solidtree")
+        self._store = store
+
+    @property
+    def theme(self) -> str:
+        """`system`, `light` or `dark`."""
+        value = self._store.value("theme", "system")
+        return value if value in ("light", "dark") else "system"
+
+    @theme.setter
+    def theme(self, value: str) -> None:
+        self._store.setValue("theme", value)
+
+    @property
+    def recent(self) -> list[str]:
+        """Paths of the files opened last, newest first."""
+        value = self._store.value("recent", [])
+        paths = [value] if isinstance(value, str) else list(value or [])  # type: ignore[call-overload]
+        return [str(path) for path in paths][:RECENT]
+
+    def add_recent(self, path: str | Path) -> None:
+        new = str(Path(path).absolute())
+        self._store.setValue("recent", [new, *(old for old in self.recent if old != new)][:RECENT])
+
+    def forget_recent(self, path: str | Path | None = None) -> None:
+        """Take one path out of the list, or all."""
+        self._store.setValue("recent", [] if path is None else [old for old in self.recent if old != str(path)])
+
+    @property
+    def folder(self) -> str:
+        """Where the last file was opened or saved, as long as it exists."""
+        value = str(self._store.value("folder", ""))
+        return value if value and Path(value).is_dir() else str(Path.home())
+
+    @folder.setter
+    def folder(self, value: str | Path) -> None:
+        self._store.setValue("folder", str(value))
+
+    def layout(self) -> tuple[QByteArray, QByteArray]:
+        """The window's geometry and the state of its docks; empty where there are none yet."""
+        geometry, state = (self._store.value(f"window/{name}") for name in ("geometry", "state"))
+        return (
+            geometry if isinstance(geometry, QByteArray) else QByteArray(),
+            state if isinstance(state, QByteArray) else QByteArray(),
+        )
+
+    def keep_layout(self, geometry: QByteArray, state: QByteArray) -> None:
+        self._store.setValue("window/geometry", geometry)
+        self._store.setValue("window/state", state)
+
+    def flag(self, name: str, default: bool) -> bool:
+        """A switch of the view that outlives the window, such as the grid."""
+        return bool(self._store.value(f"view/{name}", default, type=bool))
+
+    def set_flag(self, name: str, value: bool) -> None:
+        self._store.setValue(f"view/{name}", value)

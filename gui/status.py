@@ -1,0 +1,124 @@
+"""The status bar: what the solid measures, how long it took, and what is going on."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QStatusBar, QToolButton, QWidget
+
+from ..model.document.document import Document
+from ..model.document.errors import Refusal
+from ..model.document.tree import trail
+from .icons import icon
+
+LASTING = 8000  # milliseconds that a message stays
+
+
+def figure(value: float | None, digits: int = 6) -> str:
+    """A measured number as people read it: thin spaces between thousands, no exponent, `digits` significant ones."""
+    if value is None:
+        return "–"
+    if value and not 1e-4 <= abs(value) < 1e12:
+        return f"{value:.{digits}g}"
+    whole = len(str(int(abs(value))))
+    text = f"{value:,.{max(0, digits - whole)}f}".replace(",", "\u202f")
+    return text.rstrip("0").rstrip(".") if "." in text else text
+
+
+def shown_solids(document: Document, selection: tuple[str, ...], shown: Any) -> tuple[str, list[Any]]:
+    """What the status bar sums up, in words, and the measured solids: those that hold the selection, or all visible."""
+    if shown is None:
+        return "", []
+    roots = [root.id for root in document.solids]
+    chosen = []
+    for node_id in selection:
+        try:
+            chosen.append(trail(document, node_id)[0].id)
+        except Refusal:
+            continue
+    chosen = list(dict.fromkeys(root for root in chosen if root in roots))
+    wanted = chosen or [root.id for root in document.solids if root.visible]
+    solids = [shown.solids[root] for root in wanted if root in shown.solids and shown.solids[root].measures is not None]
+    count = len(wanted)
+    words = "" if count == 1 else f"{count} selected" if chosen else f"{count} solids"
+    return words, solids
+
+
+class StatusBar(QStatusBar):
+    """`cancel_asked` comes from the button beside the progress."""
+
+    cancel_asked = Signal()
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setSizeGripEnabled(False)
+        self.hover = QLabel(self)
+        self.addWidget(self.hover, 1)
+        self.measures = QLabel(self)
+        self.measures.setObjectName("measures")
+        self.measures.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.time = QLabel(self)
+        self.time.setObjectName("time")
+        self.time.setToolTip("How long the last evaluation took")
+        self.busy = QWidget(self)
+        self.busy.setObjectName("busy")
+        self._label = QLabel("Evaluating", self.busy)
+        self.bar = QProgressBar(self.busy)
+        self.bar.setTextVisible(False)
+        self.bar.setFixedWidth(120)
+        self.cancel = QToolButton(self.busy)
+        self.cancel.setObjectName("cancel")
+        self.cancel.setProperty("flat", True)
+        self.cancel.setIcon(icon("cancel"))
+        self.cancel.setText("Cancel")
+        self.cancel.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.cancel.setToolTip("<b>Cancel</b>&nbsp;&nbsp;Ctrl+.<br>Give up this evaluation; what is shown stays")
+        self.cancel.clicked.connect(self.cancel_asked)
+        layout = QHBoxLayout(self.busy)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(4)
+        for widget in (self._label, self.bar, self.cancel):
+            layout.addWidget(widget)
+        self.busy.hide()
+        for widget in (self.busy, self.measures, self.time):
+            self.addPermanentWidget(widget)
+
+    def say(self, text: str) -> None:
+        """A passing message; "" takes it back."""
+        if text:
+            self.showMessage(text, LASTING)
+        else:
+            self.clearMessage()
+
+    def set_hover(self, text: str) -> None:
+        self.hover.setText(text)
+
+    def set_busy(self, busy: bool) -> None:
+        self.bar.setRange(0, 0)
+        self._label.setText("Evaluating")
+        self.busy.setVisible(busy)
+
+    def set_progress(self, done: int, total: int, label: str) -> None:
+        self.bar.setRange(0, max(total, 0))
+        self.bar.setValue(done)
+        if label:
+            self._label.setText(self._label.fontMetrics().elidedText(label, Qt.TextElideMode.ElideMiddle, 220))
+
+    def set_time(self, seconds: float) -> None:
+        self.time.setText(f"{seconds * 1000:.0f} ms" if seconds < 1 else f"{seconds:.1f} s")
+
+    def set_measures(self, words: str, solids: list[Any]) -> None:
+        """Sums over measured solids; empty where there are none."""
+        if not solids:
+            self.measures.setText("")
+            return
+        all_ = [solid.measures for solid in solids]
+        volumes = [m.volume for m in all_]
+        volume = None if any(v is None for v in volumes) else sum(volumes)
+        parts = [words] if words else []
+        parts.append(f"{figure(sum(m.triangles for m in all_), 12)} triangles")
+        parts.append(f"{figure(volume)} mm³")
+        parts.append(f"{figure(sum(m.area for m in all_))} mm²")
+        self.measures.setText("    ".join(parts))
+        self.measures.setToolTip("Triangles, volume and area" + (f" of {words}" if words else ""))

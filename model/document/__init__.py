@@ -1,0 +1,1 @@
+"""Nodes, placement, tree surgery, parameters, history, session, project files. Imports nothing but `model`."""

@@ -1,0 +1,145 @@
+"""The table of commands on a document: menus, toolbar, palette, shortcuts and tests all read it.
+
+The window adds its own (files, views) to the same table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+from .nodes import Instance, Node
+from .primitives import Box, Circle, Cone, Cylinder, Extrude, Halfspace, Rectangle, Revolve, Sphere, Torus
+from .session import Session
+from .tree import find, index_of, parent
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """One entry. `fault` tells why it cannot be used now, or None; `run` takes what `fault` took."""
+
+    name: str
+    title: str
+    menu: str
+    run: Callable[[Any], None]
+    fault: Callable[[Any], str | None] = lambda context: None
+    shortcut: str = ""
+    icon: str = ""
+    tip: str = ""
+    toolbar: bool = False
+    checked: Callable[[Any], bool] | None = None
+    """For a switch: whether it is on."""
+
+
+def _selected(fewest: int = 1, most: int | None = None) -> Callable[[Session], str | None]:
+    def fault(session: Session) -> str | None:
+        count = len(session.selection)
+        if count < fewest:
+            return "select a node first" if fewest == 1 else f"select at least {fewest} nodes first"
+        if most is not None and count > most:
+            return "select one node only" if most == 1 else f"select at most {most} nodes"
+        return None
+
+    return fault
+
+
+def _chosen(session: Session) -> Node:
+    return find(session.document, session.selection[0])
+
+
+def _add(kind: Callable[[], Node]) -> Callable[[Session], None]:
+    """Into a selected operation that has room, beside a selected operand, else as a solid of its own."""
+
+    def run(session: Session) -> None:
+        node = kind()
+        parent_id, index = None, None
+        if len(session.selection) == 1:
+            chosen = _chosen(session)
+            most = type(chosen).operands[1]
+            above = parent(session.document, chosen.id)
+            if most is None and not isinstance(chosen, Instance):
+                parent_id = chosen.id
+            elif above is not None and type(above).operands[1] is None:
+                parent_id, index = above.id, index_of(session.document, chosen.id) + 1
+        arguments = [node] if parent_id is None else [node, parent_id] if index is None else [node, parent_id, index]
+        session.do("insert", *arguments, label=f"Add {node.title.lower()}")
+
+    return run
+
+
+def _combine(kind: str, title: str) -> Callable[[Session], None]:
+    return lambda session: _done(session.do("combine", kind, list(session.selection), label=title))
+
+
+def _done(_: object) -> None:
+    return None
+
+
+def _add_command(kind: type[Node], shortcut: str, tip: str, make: Callable[[], Node] | None = None) -> Command:
+    word = kind.__name__.lower()
+    return Command(f"add_{word}", kind.title, "Add", _add(make or kind), shortcut=shortcut, icon=word, tip=tip,
+                   toolbar=make is None)  # fmt: skip
+
+
+def _combine_command(kind: str, title: str, shortcut: str, tip: str, toolbar: bool = True) -> Command:
+    return Command(kind, title, "Combine", _combine(kind, title), _selected(), shortcut, kind, tip, toolbar)
+
+
+def _visibility(session: Session) -> None:
+    nodes = [find(session.document, i) for i in session.selection]
+    show = not all(node.visible for node in nodes)
+    session.do("set_visible", list(session.selection), show, label="Show" if show else "Hide")
+
+
+def _undo_fault(session: Session) -> str | None:
+    return None if session.undo_label else "there is nothing to undo"
+
+
+def _redo_fault(session: Session) -> str | None:
+    return None if session.redo_label else "there is nothing to redo"
+
+
+def _dissolve_fault(session: Session) -> str | None:
+    return _selected(1, 1)(session) or (None if _chosen(session).children else "a primitive has nothing to set free")
+
+
+def _unlink_fault(session: Session) -> str | None:
+    wrong = None if session.selection and isinstance(_chosen(session), Instance) else "select an instance"
+    return _selected(1, 1)(session) or wrong
+
+
+DOCUMENT_COMMANDS: tuple[Command, ...] = (
+    _add_command(Box, "Shift+B", "A cuboid"),
+    _add_command(Sphere, "Shift+S", "A ball"),
+    _add_command(Cylinder, "Shift+C", "A round bar"),
+    _add_command(Cone, "Shift+O", "A cone or a frustum"),
+    _add_command(Torus, "Shift+T", "A ring"),
+    _add_command(Halfspace, "Shift+H", "All on one side of a plane; it bounds what it is combined with"),
+    _add_command(Extrude, "", "A rectangle drawn up", lambda: Extrude(children=(Rectangle(),))),
+    _add_command(Revolve, "", "A circle turned about the z axis", lambda: Revolve(children=(Circle(radius=4).at(12),))),
+    _combine_command("union", "Union", "Ctrl+U", "All that lies in any of the selected nodes"),
+    _combine_command("difference", "Difference", "Ctrl+D", "The first selected node less the others"),
+    _combine_command("intersection", "Intersection", "Ctrl+I", "What lies in all of the selected nodes"),
+    _combine_command("hull", "Hull", "", "The smallest convex solid around the selected nodes", False),
+    _combine_command("minkowski", "Minkowski sum", "", "The first selected node swept by the others", False),
+    _combine_command("linear_array", "Linear array", "", "Copies in a row", False),
+    _combine_command("polar_array", "Polar array", "", "Copies around an axis", False),
+    _combine_command("mirror", "Mirror", "", "With its mirror image", False),
+    Command("undo", "Undo", "Edit", lambda s: _done(s.undo()), _undo_fault, "Ctrl+Z", "undo", "Take back the last step",
+            True),
+    Command("redo", "Redo", "Edit", lambda s: _done(s.redo()), _redo_fault, "Ctrl+Shift+Z", "redo",
+            "Do again what was taken back", True),
+    Command("delete", "Delete", "Edit", lambda s: _done(s.do("delete", list(s.selection))), _selected(), "Delete",
+            "delete", "Take the selected nodes out"),
+    Command("duplicate", "Duplicate", "Edit", lambda s: _done(s.do("duplicate", list(s.selection))), _selected(),
+            "Ctrl+Shift+D", "duplicate", "Copy the selected nodes, each beside its original"),
+    Command("dissolve", "Dissolve", "Edit", lambda s: _done(s.do("dissolve", s.selection[0])), _dissolve_fault,
+            "Ctrl+Shift+G", "dissolve", "Replace an operation by its operands"),
+    Command("link", "Link", "Edit", lambda s: _done(s.do("link", s.selection[0])), _selected(1, 1), "", "link",
+            "Make a definition of it, which instances share"),
+    Command("unlink", "Unlink", "Edit", lambda s: _done(s.do("unlink", s.selection[0])), _unlink_fault, "", "unlink",
+            "Make an instance a part of its own"),
+    Command("toggle_visible", "Show or hide", "Edit", _visibility, _selected(), "H", "eye",
+            "Hide the selected nodes, or show them again"),
+)  # fmt: skip

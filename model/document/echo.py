@@ -1,0 +1,97 @@
+"""Nodes and calls as the Python that makes them again."""
+
+from __future__ import annotations
+
+import dataclasses
+from typing import Any
+
+from .expression import Expression
+from .nodes import Instance, Node, field_specs
+from .placement import Affine, Move, Reflect, Scale, Step, Turn
+
+# The script API's name of each kind where it is not simply the kind in lower case.
+FUNCTION_NAMES = {
+    "LinearArray": "linear_array",
+    "PolarArray": "polar_array",
+    "ImportedMesh": "imported_mesh",
+}
+
+
+def function_name(kind: type[Node]) -> str:
+    return FUNCTION_NAMES.get(kind.__name__, kind.__name__.lower())
+
+
+def number_text(value: Any) -> str:
+    """A field's value in Python: whole numbers without a fraction, expressions as text."""
+    if isinstance(value, Expression):
+        return repr(value.text)
+    if isinstance(value, tuple):
+        inner = ", ".join(number_text(item) for item in value)
+        return f"({inner},)" if len(value) == 1 else f"({inner})"
+    if isinstance(value, float) and value.is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    return repr(value)
+
+
+def call(name: str, *arguments: Any, **keywords: Any) -> str:
+    """`name(arguments)`; nodes among them are written as what makes them."""
+    parts = [_argument(argument) for argument in arguments]
+    parts += [f"{key}={_argument(value)}" for key, value in keywords.items()]
+    return f"{name}({', '.join(parts)})"
+
+
+def _argument(value: Any) -> str:
+    if isinstance(value, Node):
+        return script_of(value)
+    if isinstance(value, Step):
+        return _step(value).removeprefix(".")
+    if isinstance(value, list):
+        return f"[{', '.join(_argument(item) for item in value)}]"
+    if isinstance(value, type) and issubclass(value, Node):
+        return repr(function_name(value))
+    return number_text(value)
+
+
+def script_of(root: Node) -> str:
+    """One expression of the script API that makes the tree again, ids apart."""
+    made: list[str] = []
+    stack: list[tuple[Node, bool]] = [(root, False)]
+    while stack:
+        node, ready = stack.pop()
+        if not ready:
+            stack.append((node, True))
+            stack += [(child, False) for child in reversed(node.children)]
+            continue
+        size = len(node.children)
+        operands = made[len(made) - size :]
+        del made[len(made) - size :]
+        made.append(_one(node, operands))
+    return made[0]
+
+
+def _one(node: Node, operands: list[str]) -> str:
+    kind = type(node)
+    defaults = {field.name: field.default for field in dataclasses.fields(kind)}
+    parts = list(operands)
+    for spec in field_specs(kind):
+        value = getattr(node, spec.name)
+        if value != defaults[spec.name] or isinstance(node, Instance):
+            parts.append(f"{spec.name}={number_text(value)}")
+    text = f"{function_name(kind)}({', '.join(parts)})"
+    text += "".join(_step(step) for step in node.placement.steps)
+    for method, value in (("named", node.name), ("coloured", node.colour), ("noted", node.note)):
+        if value:
+            text += f".{method}({value!r})"
+    return text if node.visible else text + ".hidden()"
+
+
+_METHODS: dict[type[Step], str] = {Move: "at", Turn: "turned", Scale: "scaled"}
+
+
+def _step(step: Step) -> str:
+    if isinstance(step, Reflect):
+        return f".mirrored({number_text(step.numbers)})"
+    if isinstance(step, Affine):
+        rows = tuple(step.numbers[i : i + 4] for i in (0, 4, 8))
+        return f".transformed({number_text(rows)})"
+    return f".{_METHODS[type(step)]}({', '.join(number_text(n) for n in step.numbers)})"

@@ -1,0 +1,306 @@
+"""The nodes of a CSG tree: frozen values with a digest. Two nodes are equal when they are the same solid.
+
+Equality and hash are the digest's, and the digest leaves out id, name, colour, visibility and note; so a rename never
+re-cuts, equal parts share one mesh, and **change is detected with `is`, never with `==`**.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import secrets
+from collections.abc import Mapping
+from dataclasses import dataclass
+from hashlib import blake2b
+from typing import Any, ClassVar, Self
+
+from . import fields
+from .errors import Refusal
+from .expression import Number, symbolic
+from .fields import FieldSpec
+from .placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
+
+KINDS: dict[str, type[Node]] = {}
+_ALPHABET = "abcdefghijkmnpqrstuvwxyz23456789"
+_set = object.__setattr__
+
+
+def fresh_id() -> str:
+    """A new node id: ten letters and digits (50 bits), the first a letter."""
+    bits = secrets.randbits(50)
+    return "n" + "".join(_ALPHABET[(bits >> shift) & 31] for shift in range(0, 50, 5))
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Node:
+    """What every node has. Sub-classes add their geometric fields, each made by a function of fields.py."""
+
+    id: str = dataclasses.field(default_factory=fresh_id)
+    name: str = ""
+    colour: str | None = None
+    visible: bool = True
+    note: str = ""
+    placement: Placement = Placement()
+    children: tuple[Node, ...] = ()
+    digest: bytes = dataclasses.field(init=False)
+    """Of kind, geometric fields, placement and children."""
+    shape_digest: bytes = dataclasses.field(init=False)
+    """The same without the node's own placement."""
+    symbolic: bool = dataclasses.field(init=False)
+    """Whether an expression or an instance stands in it or below."""
+
+    kind: ClassVar[str] = "Node"
+    title: ClassVar[str] = "Node"
+    """What users call the kind."""
+    operands: ClassVar[tuple[int, int | None]] = (0, 0)
+    """How few and how many children the kind takes; None: any number."""
+    SPECS: ClassVar[tuple[FieldSpec, ...]] = ()
+
+    def __init_subclass__(cls, **more: Any) -> None:
+        super(Node, cls).__init_subclass__(**more)
+        cls.kind = cls.__name__
+        KINDS[cls.__name__] = cls
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.placement, Placement):
+            raise Refusal(f"{self.title}: a placement is needed, not {self.placement!r:.60}")
+        children = self.children
+        if type(children) is not tuple:
+            children = tuple(children)
+            _set(self, "children", children)
+        fewest, most = self.operands
+        if len(children) < fewest or (most is not None and len(children) > most):
+            wanted = f"{fewest}" if fewest == most else f"at least {fewest}"
+            raise Refusal(f"{self.title} takes {wanted} operand{'' if fewest == 1 else 's'}, not {len(children)}")
+        values = []
+        for spec in field_specs(type(self)):
+            value = spec.checked(getattr(self, spec.name), self.title)
+            _set(self, spec.name, value)
+            values.append(value)
+        state = blake2b(repr((self.kind, values)).encode(), digest_size=16)
+        depends = symbolic(tuple(values)) or isinstance(self, Instance)
+        for child in children:
+            if not isinstance(child, Node):
+                raise Refusal(f"{self.title} takes solids, not {child!r:.60}")
+            state.update(child.digest)
+            depends = depends or child.symbolic
+        shape = state.digest()
+        _set(self, "shape_digest", shape)
+        if self.placement.steps:
+            state.update(repr(self.placement.key()).encode())
+            shape = state.digest()
+            depends = depends or self.placement.symbolic()
+        _set(self, "digest", shape)
+        _set(self, "symbolic", depends)
+
+    def __eq__(self, other: object) -> bool:
+        return self.digest == other.digest if isinstance(other, Node) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self.digest)
+
+    def __repr__(self) -> str:
+        name = f" “{self.name}”" if self.name else ""
+        below = f", {len(self.children)} operands" if self.children else ""
+        return f"<{self.kind}{name} {self.id}{below}>"
+
+    def __reduce__(self) -> Any:
+        raise TypeError("nodes travel as a table (document/table.py), not as pickles")
+
+    def with_(self, **changes: Any) -> Self:
+        """A copy with some fields replaced; the id stays."""
+        return dataclasses.replace(self, **changes)
+
+    def values(self) -> dict[str, Any]:
+        """The geometric fields by name."""
+        return {spec.name: getattr(self, spec.name) for spec in field_specs(type(self))}
+
+    @property
+    def label(self) -> str:
+        """The name, or the kind where there is none."""
+        return self.name or self.title
+
+    # Operators and placement, as scripts write them.
+
+    def __add__(self, other: Node) -> Union:
+        return (
+            Union(children=(*_flat(self, Union), *_flat(other, Union))) if isinstance(other, Node) else NotImplemented
+        )
+
+    def __sub__(self, other: Node) -> Difference:
+        return Difference(children=(*_flat(self, Difference), other)) if isinstance(other, Node) else NotImplemented
+
+    def __and__(self, other: Node) -> Intersection:
+        if not isinstance(other, Node):
+            return NotImplemented
+        return Intersection(children=(*_flat(self, Intersection), *_flat(other, Intersection)))
+
+    def at(self, x: Number | str = 0, y: Number | str = 0, z: Number | str = 0) -> Self:
+        """Moved by x, y, z millimetres."""
+        return self._placed(Move((x, y, z)))  # type: ignore[arg-type]
+
+    def turned(self, x: Number | str = 0, y: Number | str = 0, z: Number | str = 0) -> Self:
+        """Turned about the world's axes through the origin: x degrees about x, then y about y, then z about z."""
+        return self._placed(Turn((x, y, z)))  # type: ignore[arg-type]
+
+    def scaled(self, x: Number | str = 1, y: Number | str | None = None, z: Number | str | None = None) -> Self:
+        """Scaled about the origin by a factor, or by one for each axis."""
+        even = y is None and z is None
+        return self._placed(Scale((x, x if even else 1.0 if y is None else y, x if even else 1.0 if z is None else z)))  # type: ignore[arg-type]
+
+    def mirrored(self, normal: tuple[Number, ...] = (1, 0, 0)) -> Self:
+        """Reflected in the plane through the origin with this normal."""
+        return self._placed(Reflect(normal))
+
+    def transformed(self, matrix: Any) -> Self:
+        """Mapped by a (3, 4) or (4, 4) affine matrix."""
+        rows = [list(row) for row in matrix][:3]
+        return self._placed(Affine(tuple(value for row in rows for value in row)))
+
+    def named(self, name: str) -> Self:
+        """With this name in the tree."""
+        return self.with_(name=name)
+
+    def coloured(self, colour: str) -> Self:
+        """With this colour, `#rrggbb` or a CSS colour's name; it stays on the faces of every result."""
+        from .colours import hex_colour
+
+        return self.with_(colour=hex_colour(colour))
+
+    def noted(self, note: str) -> Self:
+        """With a note to the reader."""
+        return self.with_(note=note)
+
+    def hidden(self) -> Self:
+        """Not shown, though still part of what it stands in."""
+        return self.with_(visible=False)
+
+    def _placed(self, step: Step) -> Self:
+        return self.with_(placement=self.placement.then(step))
+
+
+_SPECS: dict[type[Node], tuple[FieldSpec, ...]] = {}
+
+
+def field_specs(kind: type[Node]) -> tuple[FieldSpec, ...]:
+    """The geometric fields of a kind, in the order of its form."""
+    if kind not in _SPECS:
+        _SPECS[kind] = tuple(
+            dataclasses.replace(field.metadata["spec"], name=field.name)
+            for field in dataclasses.fields(kind)
+            if "spec" in field.metadata
+        )
+    return _SPECS[kind]
+
+
+def _flat(node: Node, kind: type[Node]) -> tuple[Node, ...]:
+    """The operands of a plain operation of this kind, so that a + b + c is one union of three."""
+    plain = type(node) is kind and not (node.name or node.note or node.colour or node.placement.steps)
+    return node.children if plain and node.visible else (node,)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Union(Node):
+    """All that lies in any operand."""
+
+    title: ClassVar[str] = "Union"
+    operands: ClassVar[tuple[int, int | None]] = (0, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Difference(Node):
+    """The first operand less all others."""
+
+    title: ClassVar[str] = "Difference"
+    operands: ClassVar[tuple[int, int | None]] = (0, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Intersection(Node):
+    """What lies in every operand."""
+
+    title: ClassVar[str] = "Intersection"
+    operands: ClassVar[tuple[int, int | None]] = (0, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Hull(Node):
+    """The smallest convex solid around the operands."""
+
+    title: ClassVar[str] = "Hull"
+    operands: ClassVar[tuple[int, int | None]] = (0, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Minkowski(Node):
+    """The first operand swept by each of the others in turn (Minkowski sum)."""
+
+    title: ClassVar[str] = "Minkowski sum"
+    operands: ClassVar[tuple[int, int | None]] = (0, None)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class LinearArray(Node):
+    """Copies of the operand, each one step further."""
+
+    title: ClassVar[str] = "Linear array"
+    operands: ClassVar[tuple[int, int | None]] = (1, 1)
+    count: Number = fields.count(3, "Copies")
+    step: tuple[Number, ...] = fields.position((20.0, 0.0, 0.0), "Step", "From each copy to the next")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class PolarArray(Node):
+    """Copies of the operand turned about an axis; a full turn spreads them evenly."""
+
+    title: ClassVar[str] = "Polar array"
+    operands: ClassVar[tuple[int, int | None]] = (1, 1)
+    count: Number = fields.count(6, "Copies")
+    angle: Number = fields.angle(360.0, "Angle", "From the first copy to the last, or a full turn")
+    axis: tuple[Number, ...] = fields.direction((0.0, 0.0, 1.0), "Axis")
+    point: tuple[Number, ...] = fields.position((0.0, 0.0, 0.0), "Centre", "A point on the axis")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Mirror(Node):
+    """The operand and its mirror image, or the image alone."""
+
+    title: ClassVar[str] = "Mirror"
+    operands: ClassVar[tuple[int, int | None]] = (1, 1)
+    normal: tuple[Number, ...] = fields.direction((1.0, 0.0, 0.0), "Normal", "Of the mirror's plane")
+    point: tuple[Number, ...] = fields.position((0.0, 0.0, 0.0), "Point", "On the mirror's plane")
+    keep: bool = fields.flag(True, "Keep original")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Instance(Node):
+    """A definition of the document, placed once more."""
+
+    title: ClassVar[str] = "Instance"
+    operands: ClassVar[tuple[int, int | None]] = (0, 1)
+    definition: str = fields.text("", "Definition", "The id of the definition's root")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Broken(Node):
+    """Stands in a resolved tree for a node whose fields have no value; never in a document."""
+
+    title: ClassVar[str] = "Broken"
+    operands: ClassVar[tuple[int, int | None]] = (0, None)
+    message: str = fields.text("", "Message")
+
+
+def range_fault(node: Node) -> str | None:
+    """Why a resolved node's fields are out of their bounds, in the user's words, or None."""
+    for spec in field_specs(type(node)):
+        fault = spec.range_fault(getattr(node, spec.name))
+        if fault:
+            return f"{node.title}: {fault}"
+    return None
+
+
+def resolve_fields(node: Node, values: Mapping[str, float], children: tuple[Node, ...]) -> Node:
+    """`node` with its own expressions replaced by numbers, over resolved children. Raises Refusal."""
+    from .expression import resolved
+
+    changes = {name: resolved(value, values) for name, value in node.values().items()}
+    return node.with_(placement=node.placement.resolve(values), children=children, **changes)

@@ -1,0 +1,105 @@
+"""A document with every expression replaced by its value and every instance filled in."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from .document import Document, parameter_values
+from .errors import Refusal
+from .nodes import Broken, Instance, Node, resolve_fields
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """Trees of plain numbers. A node without a value is a `Broken` of the same id that says why."""
+
+    solids: tuple[Node, ...]
+    values: dict[str, float]
+    faults: dict[str, str]
+    """Parameters that have no value, and why."""
+
+
+class Resolver:
+    """Resolves documents one after another and remembers what it made, so that equal input gives identical nodes.
+
+    A node is remembered for the values of the parameters at that time; a parameter's change forgets them all.
+    """
+
+    def __init__(self) -> None:
+        self._values: dict[str, float] = {}
+        self._made: dict[int, tuple[Node, Node]] = {}
+        self._definitions: tuple[Node, ...] = ()
+
+    def resolve(self, document: Document) -> Resolved:
+        values, faults = parameter_values(document.parameters)
+        if values != self._values or document.definitions is not self._definitions:
+            self._made = {}
+        self._values, self._definitions = values, document.definitions
+        definitions = {node.id: node for node in document.definitions}
+        before, self._made = self._made, {}
+        solids = tuple(self._node(root, values, faults, definitions, before) for root in document.solids)
+        return Resolved(solids, values, faults)
+
+    def _node(
+        self,
+        root: Node,
+        values: Mapping[str, float],
+        faults: Mapping[str, str],
+        definitions: Mapping[str, Node],
+        before: dict[int, tuple[Node, Node]],
+    ) -> Node:
+        # An explicit stack: (node, whether its children are done); `open_` holds the definitions being filled in.
+        made = self._made
+        stack: list[tuple[Node, bool]] = [(root, False)]
+        open_: set[str] = set()
+        while stack:
+            node, ready = stack.pop()
+            key = id(node)
+            if key in made:
+                continue
+            if not node.symbolic:
+                made[key] = (node, node)
+                continue
+            old = before.get(key)
+            if old is not None and old[0] is node:
+                made[key] = old
+                continue
+            definition = definitions.get(node.definition) if isinstance(node, Instance) else None
+            if not ready:
+                if definition is not None:
+                    if definition.id in open_:
+                        made[key] = (node, _broken(node, f"the definition “{definition.label}” holds itself"))
+                        continue
+                    open_.add(definition.id)
+                stack.append((node, True))
+                stack += [(child, False) for child in (node.children if definition is None else (definition,))]
+                continue
+            if definition is not None:
+                open_.discard(definition.id)
+                children = (made[id(definition)][1],)
+            else:
+                children = tuple(made[id(child)][1] for child in node.children)
+            made[key] = (node, _resolved(node, values, faults, children, definition is None))
+        return made[id(root)][1]
+
+
+def _resolved(
+    node: Node, values: Mapping[str, float], faults: Mapping[str, str], children: tuple[Node, ...], plain: bool
+) -> Node:
+    if isinstance(node, Instance) and plain:
+        return _broken(node, f"the definition {node.definition or '?'} is not in the document")
+    try:
+        return resolve_fields(node, values, children)
+    except Refusal as refusal:
+        wrong = next((fault for name, fault in faults.items() if f" {name}" in str(refusal)), None)
+        return _broken(node, wrong or str(refusal), children)
+
+
+def _broken(node: Node, message: str, children: tuple[Node, ...] = ()) -> Broken:
+    return Broken(id=node.id, name=node.label, visible=node.visible, message=message, children=children)
+
+
+def resolve(document: Document) -> Resolved:
+    """The document's trees with plain numbers. Pure."""
+    return Resolver().resolve(document)

@@ -1,0 +1,209 @@
+"""The editing session: the one place that changes. It holds the history, the selection and one signal."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import Any
+
+from . import echo
+from .document import Document
+from .errors import Refusal
+from .operations import OPERATIONS
+from .tree import walk
+
+DEPTH = 1000
+
+
+@dataclass(frozen=True, slots=True)
+class State:
+    """What a view shows: the document, and the ids of the selected nodes in the order of selection."""
+
+    document: Document
+    selection: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Done:
+    """One step of the history: its name, and the states on both of its sides."""
+
+    label: str
+    before: State
+    after: State
+
+
+class Session:
+    """History, selection and preview of one document.
+
+    `changed` calls every listener with the states before and after; views compare their parts by identity. `log` holds
+    the line of Python for each step done so far, undone ones left out.
+    """
+
+    def __init__(self, document: Document | None = None, depth: int = DEPTH) -> None:
+        self._state = State(document or Document())
+        self._depth = depth
+        self._past: list[Done] = []
+        self._future: list[Done] = []
+        self._lines: list[str] = []
+        self._undone_lines: list[str] = []
+        self._shown: Document | None = None
+        self._saved = self._state.document
+        self._listeners: list[Callable[[State, State], None]] = []
+
+    @property
+    def state(self) -> State:
+        """The committed document, or the previewed one, and the selection."""
+        return self._state if self._shown is None else State(self._shown, self._state.selection)
+
+    @property
+    def document(self) -> Document:
+        return self._state.document if self._shown is None else self._shown
+
+    @property
+    def selection(self) -> tuple[str, ...]:
+        return self._state.selection
+
+    @property
+    def log(self) -> tuple[str, ...]:
+        return tuple(self._lines)
+
+    @property
+    def previewing(self) -> bool:
+        return self._shown is not None
+
+    @property
+    def modified(self) -> bool:
+        return self._state.document is not self._saved
+
+    @property
+    def undo_label(self) -> str | None:
+        """The name of the step that undo takes back, or None."""
+        return self._past[-1].label if self._past else None
+
+    @property
+    def redo_label(self) -> str | None:
+        return self._future[-1].label if self._future else None
+
+    def on_change(self, listener: Callable[[State, State], None]) -> Callable[[], None]:
+        """Call `listener(before, after)` at every change; the result ends that."""
+        self._listeners.append(listener)
+        return lambda: self._listeners.remove(listener)
+
+    def do(self, name: str, *arguments: Any, label: str | None = None, select: Iterable[str] | None = None,
+           **keywords: Any) -> Document:  # fmt: skip
+        """Do one operation of operations.py as a step of the history. Raises Refusal and then changes nothing.
+
+        `select` names the nodes selected afterwards; by default those that are new at the top, else what remains.
+        """
+        if name not in OPERATIONS:
+            raise Refusal(f"there is no operation called {name}")
+        before = self._state.document
+        after = OPERATIONS[name](before, *arguments, **keywords)
+        line = echo.call(name, *arguments, **keywords)
+        self.commit(label or name.replace("_", " ").capitalize(), after, select, line)
+        return after
+
+    def commit(self, label: str, document: Document | None = None, select: Iterable[str] | None = None,
+               line: str = "") -> None:  # fmt: skip
+        """Make `document`, or what is previewed, the next step of the history; no step where nothing changed."""
+        new = document if document is not None else self.document
+        shown = self.state
+        self._shown = None
+        if new is self._state.document:
+            if select is not None:
+                self.select(select)
+            if shown.document is not new:
+                self._tell(shown)
+            return
+        chosen = self._after(new) if select is None else tuple(select)
+        done = Done(label, self._state, State(new, chosen))
+        self._past.append(done)
+        del self._past[: -self._depth]
+        self._future.clear()
+        self._undone_lines.clear()
+        self._lines.append(line or f"# {label}")
+        self._state = done.after
+        self._tell(shown)
+
+    def _after(self, new: Document) -> tuple[str, ...]:
+        """New top nodes where there are any, else the selection as far as it still exists."""
+        old_ids = {node.id for node in walk(*self._state.document.roots)}
+        stack = list(reversed(new.roots))
+        fresh: list[str] = []
+        known: set[str] = set()
+        while stack:
+            node = stack.pop()
+            known.add(node.id)
+            if node.id not in old_ids:
+                fresh.append(node.id)
+                continue
+            stack += reversed(node.children)
+        return tuple(fresh) or tuple(i for i in self._state.selection if i in known)
+
+    def preview(self, document: Document) -> None:
+        """Show a document without a step in the history, as a drag does on its way."""
+        before = self.state
+        self._shown = None if document is self._state.document else document
+        if self.document is not before.document:
+            self._tell(before)
+
+    def cancel(self) -> None:
+        """Forget what is previewed."""
+        self.preview(self._state.document)
+
+    def undo(self) -> bool:
+        """Back to the very document before the last step; false where there is none."""
+        self.cancel()
+        if not self._past:
+            return False
+        done = self._past.pop()
+        self._future.append(done)
+        if self._lines:
+            self._undone_lines.append(self._lines.pop())
+        return self._go(done.before)
+
+    def redo(self) -> bool:
+        self.cancel()
+        if not self._future:
+            return False
+        done = self._future.pop()
+        self._past.append(done)
+        if self._undone_lines:
+            self._lines.append(self._undone_lines.pop())
+        return self._go(done.after)
+
+    def _go(self, state: State) -> bool:
+        before, self._state = self._state, state
+        self._tell(before)
+        return True
+
+    def select(self, ids: Iterable[str]) -> None:
+        """Select these nodes; ids that the document does not hold are left out."""
+        wanted = tuple(dict.fromkeys(ids))
+        if wanted:
+            known = {node.id for node in walk(*self.document.roots)}
+            wanted = tuple(i for i in wanted if i in known)
+        if wanted == self._state.selection:
+            return
+        before = self.state
+        self._state = State(self._state.document, wanted)
+        self._tell(before)
+
+    def open(self, document: Document) -> None:
+        """Start over with a document just read or new: no history, nothing selected, nothing unsaved."""
+        before = self.state
+        self._shown = None
+        self._past, self._future, self._lines, self._undone_lines = [], [], [], []
+        self._state = State(document)
+        self._saved = document
+        self._tell(before)
+
+    def mark_saved(self, document: Document) -> None:
+        """The document that is in the file now."""
+        self._saved = document
+        self._tell(self.state)
+
+    def _tell(self, before: State) -> None:
+        after = self.state
+        for listener in tuple(self._listeners):
+            listener(before, after)

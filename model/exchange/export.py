@@ -1,0 +1,44 @@
+"""A document's solids evaluated and written as a mesh file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..solid.results import SolidResult, arrays_of, evaluate_document
+from ..solid.tessellation import DEFAULT_TOLERANCE
+from .meshes_out import OutSolid, check_ending, write_meshes
+
+
+def export_document(
+    document: Document,
+    path: Path,
+    tolerance: float = DEFAULT_TOLERANCE,
+    solid: str | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> tuple[SolidResult, ...]:
+    """Write the visible solids, or the one of this name, in the format of the path's ending.
+
+    The result is what was evaluated; empty solids are left out of the file. Raises Refusal, and then writes nothing,
+    where a solid failed or nothing is left to write.
+    """
+    check_ending(path)
+    if solid is not None and all(root.name != solid for root in document.solids):
+        names = ", ".join(f"“{root.name}”" for root in document.solids)
+        raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
+    wanted = [root.name for root in document.solids if root.visible] if solid is None else [solid]
+    results = evaluate_document(document, tolerance, wanted, progress=progress).solids
+    for result in results:
+        if result.solid is None:
+            raise Refusal(next(f"“{m.name}”: {m.message}" for m in result.messages if m.error))
+    solids = [
+        OutSolid(result.root.name, result.root.colour, *arrays_of(result.mesh()))
+        for result in results
+        if result.solid is not None and not result.solid.is_empty()
+    ]
+    if not solids:
+        raise Refusal("there is nothing to write: every solid is empty" if results else "the document holds no solid")
+    write_meshes(path, solids)
+    return results

@@ -1,0 +1,1 @@
+"""Vertex, normal and face lists, and their repair. Imports nothing but `model`."""

@@ -1,0 +1,447 @@
+"""What scripts, the console and the examples write: `box(10) - cylinder(3)`.
+
+Everything is a value: a call returns a new one. Lengths are millimetres and angles degrees; any number may be an
+expression, as text or made from `parameter`. The methods of a solid place and dress it, in call order, about the
+world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `coloured`, `noted`, `hidden`.
+"""
+
+# Nodes take numbers as text too, and keep them as expressions; their types tell what they keep.
+# pyright: reportArgumentType=false
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+from typing import Any
+
+from .document.document import Document, Parameter
+from .document.errors import Refusal
+from .document.expression import Expression, Number
+from .document.nodes import (
+    Difference,
+    Hull,
+    Instance,
+    Intersection,
+    LinearArray,
+    Minkowski,
+    Mirror,
+    Node,
+    PolarArray,
+    Union,
+    field_specs,
+)
+from .document.placement import Affine, Move, Reflect, Scale, Turn
+from .document.primitives import (
+    Box,
+    Circle,
+    Cone,
+    Cylinder,
+    Extrude,
+    Halfspace,
+    ImportedMesh,
+    Polygon,
+    Polyhedron,
+    Rectangle,
+    Revolve,
+    Sphere,
+    Torus,
+)
+from .document.tree import numbered, walk
+
+Value = Number | str | int
+"""A number, an expression, or an expression's text."""
+
+
+def parameter(
+    name: str,
+    value: Value,
+    minimum: float | None = None,
+    maximum: float | None = None,
+    choices: Sequence[float] = (),
+    note: str = "",
+    group: str = "",
+) -> Expression:
+    """Declare a parameter of the document; the result may stand in any number and be reckoned with.
+
+    >>> width = parameter("width", 10, minimum=1)
+    >>> box(width, width / 2, 3)
+    <Box ...>
+    """
+    declared = Parameter(name, value, minimum, maximum, tuple(choices), note, group)
+    below = declared.value.declares if isinstance(declared.value, Expression) else ()
+    return Expression(name, (*below, declared))
+
+
+def box(x: Any = 20, y: Value | None = None, z: Value | None = None, centred: bool = False, *, size: Any = None) -> Box:
+    """A cuboid with its lowest corner at the origin; one number makes a cube.
+
+    >>> measure(box(10, 20, 30)).volume
+    6000.0
+    """
+    wanted = x if size is None else size
+    if isinstance(wanted, Sequence) and not isinstance(wanted, str):
+        return Box(size=tuple(wanted), centred=centred)
+    if size is not None:
+        return Box(size=(size, size, size), centred=centred)
+    return Box(size=(x, x if y is None else y, x if z is None else z), centred=centred)
+
+
+def sphere(radius: Value = 10, segments: int | None = None, tolerance: Value | None = None) -> Sphere:
+    """A ball about the origin.
+
+    >>> sphere(10).at(0, 0, 5)
+    <Sphere ...>
+    """
+    return Sphere(radius=radius, segments=segments, tolerance=tolerance)
+
+
+def cylinder(
+    radius: Value = 5,
+    height: Value = 20,
+    centred: bool = False,
+    segments: int | None = None,
+    tolerance: Value | None = None,
+) -> Cylinder:
+    """A round bar standing on z = 0 around the z axis.
+
+    >>> measure(cylinder(5, 10, segments=4)).volume
+    500.0
+    """
+    return Cylinder(radius=radius, height=height, centred=centred, segments=segments, tolerance=tolerance)
+
+
+def cone(
+    radius: Value = 10,
+    top_radius: Value = 0,
+    height: Value = 20,
+    centred: bool = False,
+    segments: int | None = None,
+    tolerance: Value | None = None,
+) -> Cone:
+    """A cone, or a frustum, standing on z = 0 around the z axis.
+
+    >>> cone(10, top_radius=4, height=20)
+    <Cone ...>
+    """
+    return Cone(
+        radius=radius, top_radius=top_radius, height=height, centred=centred, segments=segments, tolerance=tolerance
+    )
+
+
+def torus(
+    radius: Value = 15, tube_radius: Value = 4, segments: int | None = None, tolerance: Value | None = None
+) -> Torus:
+    """A ring around the z axis, centred at the origin.
+
+    >>> torus(15, 4)
+    <Torus ...>
+    """
+    return Torus(radius=radius, tube_radius=tube_radius, segments=segments, tolerance=tolerance)
+
+
+def halfspace(normal: Sequence[Value] = (0, 0, 1), point: Sequence[Value] = (0, 0, 0)) -> Halfspace:
+    """All on the side of the plane through `point` that `normal` points to.
+
+    >>> measure(sphere(10, segments=8) & halfspace((0, 0, 1), (0, 0, 10))).volume
+    0.0
+    """
+    return Halfspace(normal=tuple(normal), point=tuple(point))
+
+
+def polyhedron(points: Iterable[Sequence[float]], faces: Iterable[Sequence[int]]) -> Polyhedron:
+    """A closed surface: `points` (n, 3), and `faces` as indices, counter-clockwise seen from outside.
+
+    >>> tetrahedron = polyhedron([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
+    ...                          [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+    >>> round(measure(tetrahedron).volume, 6)
+    0.166667
+    """
+    return Polyhedron(points=tuple(tuple(p) for p in points), faces=tuple(tuple(f) for f in faces))
+
+
+def imported_mesh(asset: str, file_format: str = "stl", part: int = 0, unit: Value = 1) -> ImportedMesh:
+    """One solid of a mesh file that is among the assets already, by its SHA-256; `mesh` reads a file."""
+    return ImportedMesh(asset=asset, file_format=file_format, part=part, unit=unit)
+
+
+def mesh(path: str | os.PathLike[str]) -> Node:
+    """The solids of a mesh file (STL, 3MF, OBJ, PLY, OFF, GLB); several become one union."""
+    from .exchange.meshes_in import read_any
+
+    solids = read_any(Path(path)).solids
+    return solids[0] if len(solids) == 1 else Union(children=solids, name=Path(path).stem)
+
+
+def rectangle(width: Value = 20, height: Value = 10, centred: bool = False) -> Rectangle:
+    """An outline with its lowest corner at the origin.
+
+    >>> measure(extrude(rectangle(4, 5), 6)).volume
+    120.0
+    """
+    return Rectangle(width=width, height=height, centred=centred)
+
+
+def circle(radius: Value = 10, segments: int | None = None, tolerance: Value | None = None) -> Circle:
+    """A round outline about the origin.
+
+    >>> circle(4).at(12)
+    <Circle ...>
+    """
+    return Circle(radius=radius, segments=segments, tolerance=tolerance)
+
+
+def polygon(points: Iterable[Sequence[Value]]) -> Polygon:
+    """A closed outline of straight sides through `points` (n, 2).
+
+    >>> measure(extrude(polygon([(0, 0), (4, 0), (0, 3)]), 2)).volume
+    12.0
+    """
+    return Polygon(points=tuple(tuple(p) for p in points))
+
+
+def extrude(
+    outline: Node,
+    height: Value = 10,
+    twist: Value = 0,
+    top_scale: Value = 1,
+    centred: bool = False,
+    segments: int | None = None,
+    tolerance: Value | None = None,
+) -> Extrude:
+    """An outline drawn up along z, twisted by degrees and scaled towards the top.
+
+    >>> extrude(circle(10), height=5, top_scale=0.5)
+    <Extrude ...>
+    """
+    return Extrude(
+        children=(outline,),
+        height=height,
+        twist=twist,
+        top_scale=top_scale,
+        centred=centred,
+        segments=segments,
+        tolerance=tolerance,
+    )
+
+
+def revolve(outline: Node, angle: Value = 360, segments: int | None = None, tolerance: Value | None = None) -> Revolve:
+    """An outline turned about its y axis, which becomes z.
+
+    >>> revolve(circle(4).at(12), angle=180)
+    <Revolve ...>
+    """
+    return Revolve(children=(outline,), angle=angle, segments=segments, tolerance=tolerance)
+
+
+def _solids(nodes: Iterable[Any]) -> tuple[Node, ...]:
+    found: list[Node] = []
+    for node in nodes:
+        found += [node] if isinstance(node, Node) else _solids(node)
+    return tuple(found)
+
+
+def union(*solids: Node | Iterable[Node]) -> Union:
+    """All that lies in any of the solids; `a + b` in short.
+
+    >>> measure(union(box(1), box(1).at(5))).components
+    2
+    """
+    return Union(children=_solids(solids))
+
+
+def difference(first: Node | Iterable[Node], *others: Node | Iterable[Node]) -> Difference:
+    """The first solid less all others; `a - b` in short.
+
+    >>> measure(difference(box(2), box(1))).volume
+    7.0
+    """
+    return Difference(children=_solids((first, *others)))
+
+
+def intersection(*solids: Node | Iterable[Node]) -> Intersection:
+    """What lies in all of the solids; `a & b` in short.
+
+    >>> measure(intersection(box(2), box(2).at(1, 1, 1))).volume
+    1.0
+    """
+    return Intersection(children=_solids(solids))
+
+
+def hull(*solids: Node | Iterable[Node]) -> Hull:
+    """The smallest convex solid around the solids.
+
+    >>> measure(hull(box(1), box(1).at(4))).volume
+    5.0
+    """
+    return Hull(children=_solids(solids))
+
+
+def minkowski(first: Node | Iterable[Node], *others: Node | Iterable[Node]) -> Minkowski:
+    """The first solid swept by each of the others (Minkowski sum).
+
+    >>> measure(minkowski(box(3), box(1))).volume
+    64.0
+    """
+    return Minkowski(children=_solids((first, *others)))
+
+
+def linear_array(solid: Node, count: Value = 3, step: Sequence[Value] = (20, 0, 0)) -> LinearArray:
+    """Copies of a solid, each one step further.
+
+    >>> measure(linear_array(box(1), 5, (2, 0, 0))).volume
+    5.0
+    """
+    return LinearArray(children=(solid,), count=count, step=tuple(step))
+
+
+def polar_array(
+    solid: Node,
+    count: Value = 6,
+    angle: Value = 360,
+    axis: Sequence[Value] = (0, 0, 1),
+    point: Sequence[Value] = (0, 0, 0),
+) -> PolarArray:
+    """Copies of a solid turned about an axis; a full turn spreads them evenly, a part of one goes from first to last.
+
+    >>> measure(polar_array(box(1).at(5), 4)).components
+    4
+    """
+    return PolarArray(children=(solid,), count=count, angle=angle, axis=tuple(axis), point=tuple(point))
+
+
+def mirror(
+    solid: Node, normal: Sequence[Value] = (1, 0, 0), point: Sequence[Value] = (0, 0, 0), keep: bool = True
+) -> Mirror:
+    """A solid and its mirror image in a plane, or with `keep=False` the image alone (as `solid.mirrored` has it).
+
+    >>> measure(mirror(box(1).at(2))).volume
+    2.0
+    """
+    return Mirror(children=(solid,), normal=tuple(normal), point=tuple(point), keep=keep)
+
+
+def instance(definition: str) -> Instance:
+    """The document's definition of this id, once more; it has a meaning only in that document."""
+    return Instance(definition=definition)
+
+
+def at(*numbers: Value) -> Move:
+    """A placement step for `place`."""
+    return Move(numbers)
+
+
+def turned(*numbers: Value) -> Turn:
+    """A placement step for `place`."""
+    return Turn(numbers)
+
+
+def scaled(*numbers: Value) -> Scale:
+    """A placement step for `place`."""
+    return Scale(numbers)
+
+
+def mirrored(normal: Sequence[Value]) -> Reflect:
+    """A placement step for `place`."""
+    return Reflect(tuple(normal))
+
+
+def transformed(matrix: Iterable[Iterable[Value]]) -> Affine:
+    """A placement step for `place`: a (3, 4) matrix."""
+    return Affine(tuple(number for row in list(matrix)[:3] for number in row))
+
+
+def document_of(*solids: Node | Document, **named: Node) -> Document:
+    """A document of these solids; a keyword is a solid's name. Parameters are those that their numbers declare."""
+    if len(solids) == 1 and isinstance(solids[0], Document) and not named:
+        return solids[0]
+    roots: list[Node] = []
+    taken: set[str] = set()
+    from .document.tree import unique_name
+
+    for name, solid in [*((None, solid) for solid in solids), *named.items()]:
+        if not isinstance(solid, Node):
+            raise Refusal(f"a document holds solids, not {solid!r:.60}")
+        wanted = unique_name(name or solid.label, taken)
+        taken.add(wanted)
+        roots.append(solid if solid.name == wanted else solid.with_(name=wanted))
+    return Document(solids=numbered(roots), parameters=_declared(roots))
+
+
+def _declared(roots: Iterable[Node]) -> tuple[Parameter, ...]:
+    found: dict[str, Parameter] = {}
+    used: set[str] = set()
+    for node in walk(*roots):
+        if not node.symbolic:
+            continue
+        values = [getattr(node, spec.name) for spec in field_specs(type(node))]
+        for expression in _expressions([values, [step.numbers for step in node.placement.steps]]):
+            used |= expression.names()
+            for declared in expression.declares:
+                if found.setdefault(declared.name, declared) != declared:
+                    raise Refusal(f"the parameter {declared.name} is declared twice, with different values")
+    missing = sorted(used - found.keys())
+    if missing:
+        raise Refusal(f"there is no parameter called {missing[0]}; declare it with parameter(“{missing[0]}”, …)")
+    return tuple(found.values())
+
+
+def _expressions(value: Any) -> Iterable[Expression]:
+    if isinstance(value, Expression):
+        yield value
+    elif isinstance(value, list | tuple):
+        for item in value:
+            yield from _expressions(item)
+
+
+def evaluate(*solids: Node | Document, tolerance: float = 0.05):
+    """Solids or a document as evaluated results; see solidtree.model.solid.results.Evaluation."""
+    from .solid.results import evaluate_document
+
+    return evaluate_document(document_of(*solids), tolerance)
+
+
+def measure(solid: Node, tolerance: float = 0.05):
+    """Volume, area, bounds, centroid, triangles, components and genus of a solid. Raises Refusal where it has none.
+
+    >>> measure(box(10)).area
+    600.0
+    """
+    result = evaluate(solid, tolerance=tolerance).solids[0]
+    measures = result.measures()
+    if measures is None:
+        raise Refusal(next(message.message for message in result.messages if message.error))
+    return measures
+
+
+def open_document(path: str | os.PathLike[str]) -> Document:
+    """The document in a project file, or made of any file that can be imported."""
+    from .exchange.meshes_in import read_any
+
+    return read_any(Path(path))
+
+
+def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: float = 0.05, **named: Node) -> Document:
+    """Write a project (.solidtree) or a mesh file (.stl .3mf .obj .ply .off .glb); a keyword is a solid's name.
+
+    The result is the document written.
+    """
+    document = document_of(*solids, **named)
+    target = Path(path)
+    if target.suffix.lower() == ".solidtree":
+        from .document.project_file import save_project
+
+        save_project(document, target)
+    else:
+        from .exchange.export import export_document
+
+        export_document(document, target, tolerance)
+    return document
+
+
+__all__ = [
+    "Document", "Refusal", "at", "box", "circle", "cone", "cylinder", "difference", "document_of", "evaluate",
+    "extrude", "halfspace", "hull", "imported_mesh", "instance", "intersection", "linear_array", "measure", "mesh",
+    "minkowski", "mirror", "mirrored", "open_document", "parameter", "polar_array", "polygon", "polyhedron",
+    "rectangle", "revolve", "save", "scaled", "sphere", "torus", "transformed", "turned", "union",
+]  # fmt: skip

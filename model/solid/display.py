@@ -1,0 +1,152 @@
+"""A solid's mesh as pictures need it: split at creases, with normals, owners, facets and feature edges."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from manifold3d import Mesh64
+from numpy.typing import NDArray
+
+from .provenance import Path
+
+SMOOTH = np.cos(np.radians(35))
+"""Facets that meet at less than this share a normal."""
+FEATURE = np.cos(np.radians(25))
+"""Facets of one owner that meet at more than this have an edge between them."""
+SEAM = np.cos(np.radians(10))
+"""Facets of two owners that meet at more than this have one; less is a tangent joint of a faceted surface."""
+MOST_AROUND = 300
+"""A vertex with more facets than this keeps their own normals."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DisplayMesh:
+    """Read-only arrays of one solid. The numbers in `owner` are places in `owners`."""
+
+    points: NDArray[np.float32]  # (p, 3)
+    normals: NDArray[np.float32]  # (p, 3) unit
+    triangles: NDArray[np.int32]  # (t, 3) counter-clockwise from outside
+    owner: NDArray[np.int32]  # (t,)
+    owners: tuple[Path, ...]
+    subtracted: NDArray[np.bool_]  # (t,) left by a subtracted operand
+    facet: NDArray[np.int32]  # (t,) number of the flat face
+    edge_points: NDArray[np.float32]  # (q, 3)
+    edges: NDArray[np.int32]  # (e, 2)
+    bounds: NDArray[np.float64]  # (2, 3)
+
+
+def display_mesh(mesh: Mesh64, owner_of_run: NDArray[np.int32], owners: tuple[Path, ...] = ()) -> DisplayMesh:
+    """The picture's side of a result of manifold3d. `owner_of_run` as from provenance.owners_of_runs."""
+    points = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3]
+    triangles = np.asarray(mesh.tri_verts).astype(np.int64)
+    count = len(triangles)
+    if not count:
+        return _empty(owners)
+    starts = np.asarray(mesh.run_index, dtype=np.int64) // 3
+    run = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
+    flags = np.asarray(mesh.run_flags, dtype=np.int64)
+    subtracted = (flags[run] & 1).astype(bool) if len(flags) else np.zeros(count, dtype=bool)
+    owner = owner_of_run[run]
+
+    face = np.asarray(mesh.face_id, dtype=np.int64)
+    face = face if len(face) == count else np.arange(count)
+    _, facet = np.unique(run * (int(face.max()) + 1) + face, return_inverse=True)
+    facet = facet.reshape(-1)
+    corners = points[triangles]  # (t, 3, 3)
+    sides = np.roll(corners, -1, axis=1) - corners
+    areas = np.cross(sides[:, 0], -sides[:, 2])
+    facets = int(facet.max()) + 1
+    facet_normal = _unit(_sums(facet, areas, facets))
+
+    # Render points are pairs of a vertex and a facet, sorted by vertex.
+    pair_of_corner = (triangles * facets + facet[:, None]).reshape(-1)
+    pairs, corner_point = np.unique(pair_of_corner, return_inverse=True)
+    vertex, pair_facet = np.divmod(pairs, facets)
+    angle = _sums(corner_point.reshape(-1), _angles(sides).reshape(-1, 1), len(pairs))[:, 0]
+    owner_of_facet = np.empty(facets, dtype=np.int64)
+    owner_of_facet[facet] = 2 * owner + subtracted
+    normals = _smooth(vertex, facet_normal[pair_facet], angle, owner_of_facet[pair_facet])
+
+    edges = _feature_edges(triangles, facet, facet_normal, owner_of_facet, len(points))
+    used, edge_ends = np.unique(edges, return_inverse=True)
+    return DisplayMesh(
+        points=points[vertex].astype(np.float32),
+        normals=normals.astype(np.float32),
+        triangles=corner_point.reshape(-1, 3).astype(np.int32),
+        owner=owner.astype(np.int32),
+        owners=owners,
+        subtracted=subtracted,
+        facet=facet.astype(np.int32),
+        edge_points=points[used].astype(np.float32),
+        edges=edge_ends.reshape(-1, 2).astype(np.int32),
+        bounds=np.array([points.min(axis=0), points.max(axis=0)]),
+    )
+
+
+def _empty(owners: tuple[Path, ...]) -> DisplayMesh:
+    none = np.empty((0, 3), dtype=np.float32)
+    numbers = np.empty(0, dtype=np.int32)
+    return DisplayMesh(
+        none, none, numbers.reshape(0, 3), numbers, owners, numbers.astype(bool), numbers, none,
+        numbers.reshape(0, 2), np.zeros((2, 3)),
+    )  # fmt: skip
+
+
+def _sums(group: NDArray[np.int64], rows: NDArray[np.float64], count: int) -> NDArray[np.float64]:
+    """(count, k) the sum of the rows (n, k) of each group."""
+    return np.column_stack([np.bincount(group, rows[:, i], count) for i in range(rows.shape[1])]).astype(np.float64)
+
+
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    size = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return vectors / np.where(size > 0, size, 1)
+
+
+def _angles(sides: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(t, 3) the angle at each corner of triangles whose sides (t, 3, 3) leave their corners."""
+    ahead = sides / np.maximum(np.linalg.norm(sides, axis=2, keepdims=True), 1e-300)
+    back = -np.roll(ahead, 1, axis=1)
+    return np.arccos(np.clip(np.einsum("tij,tij->ti", ahead, back), -1, 1))
+
+
+def _smooth(
+    vertex: NDArray[np.int64], normal: NDArray[np.float64], angle: NDArray[np.float64], owner: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """(p, 3) normals of points sorted by vertex: the angle-weighted mean over facets that meet there smoothly."""
+    first = np.flatnonzero(np.diff(vertex, prepend=-1))
+    size = np.diff(first, append=len(vertex))
+    group = np.repeat(np.arange(len(first)), size)
+    around = np.where((size > 1) & (size <= MOST_AROUND), size, 0)[group]
+    rows = np.flatnonzero(around)
+    if not len(rows):
+        return normal
+    # Every point of a vertex against every other one of it.
+    one = np.repeat(rows, around[rows])
+    begin = np.cumsum(around[rows]) - around[rows]
+    other = first[group[one]] + np.arange(len(one)) - np.repeat(begin, around[rows])
+    meets = (owner[one] == owner[other]) & (np.einsum("ij,ij->i", normal[one], normal[other]) > SMOOTH)
+    one, other = one[meets], other[meets]
+    weighted = normal[other] * angle[other, None]
+    total = _sums(one, weighted, len(vertex))
+    return np.where(around[:, None] > 0, _unit(total), normal)
+
+
+def _feature_edges(
+    triangles: NDArray[np.int64],
+    facet: NDArray[np.int64],
+    facet_normal: NDArray[np.float64],
+    owner: NDArray[np.int64],
+    points: int,
+) -> NDArray[np.int64]:
+    """(e, 2) the edges where two facets meet at an angle, or two owners meet out of plane."""
+    ends = np.stack((triangles, np.roll(triangles, -1, axis=1)), axis=2).reshape(-1, 2)
+    both = np.sort(ends, axis=1)
+    key = both[:, 0] * points + both[:, 1]
+    order = np.argsort(key, kind="stable")
+    ordered = key[order]
+    pair = np.flatnonzero(ordered[:-1] == ordered[1:])
+    a, b = facet[order[pair] // 3], facet[order[pair + 1] // 3]
+    cosine = np.einsum("ij,ij->i", facet_normal[a], facet_normal[b])
+    sharp = (a != b) & ((cosine < FEATURE) | ((owner[a] != owner[b]) & (cosine < SEAM)))
+    return both[order[pair[sharp]]]

@@ -1,0 +1,248 @@
+"""Leaves as manifold3d solids, in their own axes: one small function a kind.
+
+Each result is an original of manifold3d, so that every triangle of a later result names the leaf value it came from.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import singledispatch
+
+import numpy as np
+from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64
+from numpy.typing import NDArray
+
+from ..document.nodes import Node
+from ..document.placement import Placement
+from ..document.primitives import (
+    Box,
+    Circle,
+    Cone,
+    Cylinder,
+    Extrude,
+    ImportedMesh,
+    Polygon,
+    Polyhedron,
+    Rectangle,
+    Revolve,
+    Sphere,
+    Torus,
+)  # fmt: skip
+from .failure import NoSolid, words
+from .tessellation import MAX_SEGMENTS, circle_segments, sphere_segments
+
+
+def _wanted(node: Node, tolerance: float) -> tuple[int | None, float]:
+    """The node's own segments, if it has them, and its tolerance: its own one wins unless a coarser is asked for."""
+    segments, own = node.segments, node.tolerance  # type: ignore[attr-defined]
+    if segments is not None:
+        if segments > MAX_SEGMENTS:
+            raise NoSolid(f"{node.title}: segments must be at most {MAX_SEGMENTS}, not {segments:g}")
+        return int(segments), tolerance
+    return None, tolerance if own is None else float(own)
+
+
+def _segments(node: Node, radius: float, tolerance: float, count=circle_segments) -> int:
+    segments, tolerance = _wanted(node, tolerance)
+    return segments or count(radius, tolerance)
+
+
+@singledispatch
+def solid_of(node: Node, tolerance: float) -> Manifold:
+    """The leaf's solid. Raises NoSolid."""
+    raise NoSolid(f"{node.title} is no solid by itself")
+
+
+@solid_of.register
+def solid_of_box(node: Box, tolerance: float) -> Manifold:
+    x, y, z = (float(side) for side in node.size)
+    return Manifold.cube((x, y, z), node.centred)
+
+
+@solid_of.register
+def solid_of_sphere(node: Sphere, tolerance: float) -> Manifold:
+    return Manifold.sphere(float(node.radius), _segments(node, float(node.radius), tolerance, sphere_segments))
+
+
+@solid_of.register
+def solid_of_cylinder(node: Cylinder, tolerance: float) -> Manifold:
+    radius = float(node.radius)
+    segments = _segments(node, radius, tolerance)
+    return Manifold.cylinder(float(node.height), radius, radius, segments, node.centred)
+
+
+@solid_of.register
+def solid_of_cone(node: Cone, tolerance: float) -> Manifold:
+    low, high = float(node.radius), float(node.top_radius)
+    if low == high == 0:
+        raise NoSolid("Cone: radius and top radius are both 0")
+    return Manifold.cylinder(float(node.height), low, high, _segments(node, max(low, high), tolerance), node.centred)
+
+
+@solid_of.register
+def solid_of_torus(node: Torus, tolerance: float) -> Manifold:
+    radius, tube = float(node.radius), float(node.tube_radius)
+    segments, tolerance = _wanted(node, tolerance)
+    # Around the axis and around the tube each may use half of the tolerance.
+    around = segments or circle_segments(radius + tube, tolerance / 2)
+    section = CrossSection.circle(tube, segments or circle_segments(tube, tolerance / 2)).translate((radius, 0))
+    return section.revolve(around)
+
+
+@solid_of.register
+def solid_of_polyhedron(node: Polyhedron, tolerance: float) -> Manifold:
+    points = np.array(node.points, dtype=np.float64).reshape(-1, 3)
+    if len(points) < 4 or len(node.faces) < 4:
+        raise NoSolid(f"Polyhedron: {len(points)} points and {len(node.faces)} faces enclose nothing")
+    for number, face in enumerate(node.faces):
+        if len(face) < 3 or min(face) < 0 or max(face) >= len(points):
+            raise NoSolid(f"Polyhedron: face {number} must name three or more of the points 0 to {len(points) - 1}")
+    sides = {len(face) for face in node.faces}
+    if sides == {3}:
+        triangles = np.array(node.faces, dtype=np.int64)
+        polygons = np.arange(len(triangles))
+    else:
+        pieces = [_triangulated(points, face) for face in node.faces]
+        triangles = np.concatenate(pieces)
+        polygons = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])
+    return closed_solid(points, triangles, polygons, "Polyhedron")
+
+
+def _triangulated(points: NDArray[np.float64], face: tuple[int, ...]) -> NDArray[np.int64]:
+    """(n, 3) triangles of one flat face, which may be concave."""
+    from manifold3d import triangulate
+
+    corners = np.array(face, dtype=np.int64)
+    if len(corners) == 3:
+        return corners[None]
+    ring = points[corners]
+    # Newell's method: the normal of a polygon whose corners may be slightly out of plane.
+    normal = np.cross(ring, np.roll(ring, -1, axis=0)).sum(axis=0)
+    drop = int(np.argmax(np.abs(normal)))
+    flat = ring[:, [i for i in range(3) if i != drop]]
+    forward = (normal[drop] > 0) == (drop != 1)
+    order = np.arange(len(corners)) if forward else np.arange(len(corners))[::-1]
+    triangles = order[np.asarray(triangulate([flat[order]], 0.0), dtype=np.int64)]
+    return corners[triangles if forward else triangles[:, ::-1]]
+
+
+def closed_solid(
+    points: NDArray[np.float64], triangles: NDArray[np.int64], polygons: NDArray[np.int64] | None, what: str
+) -> Manifold:
+    """A solid from points (n, 3) and triangles (m, 3); `polygons` (m,) numbers the flat face each belongs to.
+
+    Doubled points are merged, an inside-out surface is turned. Raises NoSolid for what is not closed.
+    """
+    faces = None if polygons is None else polygons.astype(np.uint64)
+    mesh = Mesh64(np.ascontiguousarray(points), triangles.astype(np.uint64), face_id=faces)
+    solid = Manifold(mesh)
+    if solid.status() == Error.NotManifold:
+        mesh.merge()
+        solid = Manifold(mesh)
+    if solid.status() == Error.NotManifold:
+        raise NoSolid(f"{what}: {_openness(points, triangles)}")
+    if solid.status() != Error.NoError:
+        raise NoSolid(f"{what}: {words(solid.status())}")
+    if solid.volume() < 0:
+        turned = Mesh64(
+            np.ascontiguousarray(points),
+            np.ascontiguousarray(triangles[:, ::-1]).astype(np.uint64),
+            face_id=faces,
+        )
+        turned.merge()
+        solid = Manifold(turned)
+    return solid.as_original()
+
+
+def _openness(points: NDArray[np.float64], triangles: NDArray[np.int64]) -> str:
+    """Which edges keep a mesh from enclosing anything."""
+    _, same = np.unique(points, axis=0, return_inverse=True)
+    corners = same.reshape(-1)[triangles]
+    edges = corners[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    edges = edges[edges[:, 0] != edges[:, 1]]
+    pairs, count = np.unique(np.sort(edges, axis=1), axis=0, return_counts=True)
+    open_, many = int((count == 1).sum()), int((count > 2).sum())
+    if open_:
+        return f"the surface is not closed: {open_} open edge{'' if open_ == 1 else 's'}"
+    if many:
+        return f"{many} edge{' has' if many == 1 else 's have'} more than two faces"
+    return f"neighbouring faces point to opposite sides ({len(pairs)} edges)"
+
+
+@solid_of.register
+def solid_of_imported_mesh(node: ImportedMesh, tolerance: float) -> Manifold:
+    from ..exchange.meshes_in import parts_of_asset
+
+    parts = parts_of_asset(node.asset, node.file_format)
+    index = int(node.part)  # type: ignore[arg-type]
+    if index >= len(parts):
+        raise NoSolid(f"Imported mesh: the file holds {len(parts)} solid{'s' * (len(parts) != 1)}, not number {index}")
+    part = parts[index]
+    return closed_solid(part.vertices * float(node.unit), part.triangles.astype(np.int64), None, "Imported mesh")
+
+
+@solid_of.register
+def solid_of_extrude(node: Extrude, tolerance: float) -> Manifold:
+    section = section_of(node.children[0], tolerance)
+    if section.is_empty():
+        raise NoSolid("Extrusion: the outline encloses nothing")
+    twist, height = float(node.twist), float(node.height)
+    reach = float(np.abs(np.array(section.bounds())).max())
+    divisions = 0
+    if twist:
+        divisions = math.ceil(abs(twist) / 360 * _segments(node, max(reach, 1e-9), tolerance))
+        if node.segments is None:
+            # A wall of length L twisted by an angle a between two levels is L a / 4 away from its two triangles.
+            longest = max(
+                float(np.linalg.norm(np.roll(c, -1, axis=0) - c, axis=1).max()) for c in section.to_polygons()
+            )
+            wanted = math.radians(abs(twist)) * longest / (4 * _wanted(node, tolerance)[1])
+            divisions = min(max(divisions, math.ceil(wanted)), MAX_SEGMENTS)
+    scale = float(node.top_scale)
+    solid = Manifold.extrude(section, height, divisions, twist, (scale, scale))
+    return solid.translate((0, 0, -height / 2)).as_original() if node.centred else solid
+
+
+@solid_of.register
+def solid_of_revolve(node: Revolve, tolerance: float) -> Manifold:
+    section = section_of(node.children[0], tolerance)
+    reach = section.bounds()[2] if not section.is_empty() else 0.0
+    if reach <= 0:
+        raise NoSolid("Revolution: the outline lies at x < 0; only what is right of the y axis is turned")
+    angle = min(float(node.angle), 360.0)
+    return section.revolve(_segments(node, reach, tolerance), angle)
+
+
+@singledispatch
+def section_of(node: Node, tolerance: float) -> CrossSection:
+    """The outline's area in its own plane, placed. Raises NoSolid."""
+    raise NoSolid(f"“{node.label}” is a solid; an outline is needed here")
+
+
+def _placed(section: CrossSection, placement: Placement) -> CrossSection:
+    if not placement.steps:
+        return section
+    matrix = placement.matrix()
+    if np.abs(matrix[2, :2]).max() > 1e-12:
+        raise NoSolid("an outline can be turned about z only")
+    return section.transform(matrix[:2][:, [0, 1, 3]])
+
+
+@section_of.register
+def section_of_rectangle(node: Rectangle, tolerance: float) -> CrossSection:
+    return _placed(CrossSection.square((float(node.width), float(node.height)), node.centred), node.placement)
+
+
+@section_of.register
+def section_of_circle(node: Circle, tolerance: float) -> CrossSection:
+    return _placed(
+        CrossSection.circle(float(node.radius), _segments(node, float(node.radius), tolerance)), node.placement
+    )
+
+
+@section_of.register
+def section_of_polygon(node: Polygon, tolerance: float) -> CrossSection:
+    if len(node.points) < 3:
+        raise NoSolid("Polygon: three or more points are needed")
+    contour = np.array(node.points, dtype=np.float64)
+    return _placed(CrossSection([contour], FillRule.EvenOdd), node.placement)

@@ -1,0 +1,148 @@
+"""A document evaluated in this process: solids, measures and messages by node, for scripts and the command line."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from manifold3d import Manifold, Mesh64, OpType
+from numpy.typing import NDArray
+
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.nodes import Node
+from ..document.primitives import ImportedMesh
+from ..document.resolve import Resolver
+from .display import DisplayMesh, display_mesh
+from .evaluate import Entry, Evaluator
+from .measure import Measures, measure
+from .provenance import occurrences, owners_of_runs
+from .tessellation import DEFAULT_TOLERANCE
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """Something to tell about a node."""
+
+    node_id: str
+    name: str
+    message: str
+    error: bool
+
+
+@dataclass(frozen=True, slots=True)
+class SolidResult:
+    """One evaluated root: its resolved tree, and the solid in the world's axes or None."""
+
+    root: Node
+    solid: Manifold | None
+    messages: tuple[Message, ...]
+
+    def mesh(self) -> Mesh64:
+        """The surface; empty where the solid failed."""
+        return (self.solid or Manifold()).to_mesh64()
+
+    def measures(self) -> Measures | None:
+        """None where the solid failed; an imported surface that is not closed has some all the same."""
+        if self.solid is not None:
+            return measures_of(self.mesh())
+        surface = open_surface(self.root)
+        return None if surface is None else measure(*surface, closed=False)
+
+
+def arrays_of(mesh: Mesh64) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """Points (n, 3) and triangles (m, 3)."""
+    return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
+
+
+def open_surface(root: Node) -> tuple[NDArray[np.float64], NDArray[np.int64]] | None:
+    """Points and triangles, in place, of an imported mesh that is no solid; None for other nodes."""
+    if not isinstance(root, ImportedMesh):
+        return None
+    from ..exchange.meshes_in import parts_of_asset
+
+    try:
+        part = parts_of_asset(root.asset, root.file_format)[int(root.part)]  # type: ignore[arg-type]
+    except (Refusal, IndexError):
+        return None
+    matrix = root.placement.matrix()
+    points = part.vertices * float(root.unit) @ matrix[:, :3].T + matrix[:, 3]  # type: ignore[arg-type]
+    return points, part.triangles.astype(np.int64)
+
+
+def measures_of(mesh: Mesh64) -> Measures:
+    return measure(*arrays_of(mesh))
+
+
+def messages_of(root: Node, entry: Entry) -> tuple[Message, ...]:
+    """The entry's problems with the nodes they are about."""
+    found = []
+    for problem in entry.problems:
+        node = root
+        for index in problem.place:
+            node = node.children[index]
+        found.append(Message(node.id, node.label, problem.message, problem.error))
+    return tuple(dict.fromkeys(found))
+
+
+def display_of(root: Node, solid: Manifold | None, evaluator: Evaluator) -> DisplayMesh | None:
+    """The picture's side of an evaluated root; None where it failed and is no imported surface either."""
+    found = occurrences(root)
+    if solid is None:
+        surface = open_surface(root)
+        if surface is None:
+            return None
+        mesh = Mesh64(surface[0], surface[1].astype(np.uint64), run_index=[0, 3 * len(surface[1])], run_original_id=[0])
+        return display_mesh(mesh, np.zeros(1, dtype=np.int32), tuple(occurrence.path for occurrence in found))
+    mesh = solid.to_mesh64()
+    owner = owners_of_runs(mesh, root, evaluator.originals, found)
+    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found))
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluation:
+    """A document's results, in the order of its solids."""
+
+    solids: tuple[SolidResult, ...]
+    evaluator: Evaluator
+
+    @property
+    def messages(self) -> tuple[Message, ...]:
+        return tuple(message for result in self.solids for message in result.messages)
+
+    @property
+    def visible(self) -> tuple[SolidResult, ...]:
+        return tuple(result for result in self.solids if result.root.visible)
+
+    def display(self, result: SolidResult) -> DisplayMesh | None:
+        return display_of(result.root, result.solid, self.evaluator)
+
+    def total(self) -> Manifold:
+        """The union of the visible solids that have not failed."""
+        solids = [result.solid for result in self.visible if result.solid is not None]
+        return Manifold.batch_boolean(solids, OpType.Add) if len(solids) > 1 else solids[0] if solids else Manifold()
+
+
+def evaluate_document(
+    document: Document,
+    tolerance: float = DEFAULT_TOLERANCE,
+    names: Iterable[str] | None = None,
+    evaluator: Evaluator | None = None,
+    progress: Callable[[str], None] | None = None,
+) -> Evaluation:
+    """Evaluate a document's solids (all, or those of these names)."""
+    evaluator = evaluator or Evaluator()
+    wanted = None if names is None else set(names)
+    results = []
+    for root in Resolver().resolve(document).solids:
+        if wanted is None or root.name in wanted:
+            entry = evaluator.evaluate(root, tolerance, progress)
+            results.append(SolidResult(root, entry.solid, messages_of(root, entry)))
+    return Evaluation(tuple(results), evaluator)
+
+
+def relabelled(mesh: DisplayMesh, root: Node) -> DisplayMesh:
+    """The mesh of an equal tree with the ids of this one."""
+    owners = tuple(occurrence.path for occurrence in occurrences(root))
+    return mesh if owners == mesh.owners else replace(mesh, owners=owners)

@@ -1,0 +1,132 @@
+"""The worker's side of a lane: a process that evaluates documents and keeps the solids."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import sys
+import time
+from multiprocessing.connection import Connection
+from pathlib import Path
+from typing import Any
+
+from ..document.errors import Refusal
+from ..document.nodes import Node
+from ..document.resolve import Resolver
+from ..document.table import Reuse, from_table
+from .evaluate import Evaluator, Superseded
+from .results import Message, SolidResult, display_of, messages_of
+
+INTERVAL = 0.1
+"""Seconds between two reports of progress."""
+
+
+def serve(connection: Connection, store_folder: str) -> None:
+    """Answer requests until the other side is gone. The entry point of the process."""
+    _die_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    from ..document.assets import use_store
+
+    use_store(Path(store_folder))
+    worker = _Worker(connection)
+    connection.send(("started", os.getpid()))
+    try:
+        while True:
+            worker.answer(connection.recv())
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        pass
+
+
+def _die_with_parent() -> None:
+    """On Linux, end when the window does, even in the middle of a boolean."""
+    if sys.platform == "linux":
+        pr_set_pdeathsig = 1
+        ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+
+
+class _Worker:
+    def __init__(self, connection: Connection) -> None:
+        self._connection = connection
+        self._evaluator = Evaluator(incremental=True)
+        self._resolver = Resolver()
+        self._reuse: Reuse = {}
+
+    def answer(self, request: tuple[Any, ...]) -> None:
+        word, number, *arguments = request
+        if word == "stop":  # came when its request was answered already
+            return
+        try:
+            result = getattr(self, "_" + word)(number, *arguments)
+        except Superseded:
+            result = ("superseded", number)
+        except Refusal as refusal:
+            result = ("refused", number, str(refusal))
+        except MemoryError:
+            result = ("refused", number, "there is not enough memory for this")
+        self._connection.send(result)
+
+    def _evaluate(self, number: int, table: dict[str, Any], tolerance: float, known: set[bytes]) -> tuple[Any, ...]:
+        """Each visible solid as (key, mesh, measures, messages); those whose key is known as the key alone."""
+        start, before = time.perf_counter(), self._evaluator.evaluations
+        if len(self._reuse) > 4 * len(table["nodes"]) + 1000:
+            self._reuse.clear()
+        document = from_table(table, self._reuse)
+        roots = [root for root in self._resolver.resolve(document).solids if root.visible]
+        progress = _Progress(self._connection, number, sum(_size(root) for root in roots))
+        answers: list[tuple[Any, ...]] = []
+        for root in roots:
+            key = shown_key(root, tolerance)
+            answers.append((key,) if key in known else (key, *self._shown(root, tolerance, progress)))
+        seconds = time.perf_counter() - start
+        return "evaluated", number, answers, seconds, self._evaluator.evaluations - before
+
+    def _shown(self, root: Node, tolerance: float, progress: _Progress) -> tuple[Any, Any, tuple[Message, ...]]:
+        entry = self._evaluator.evaluate(root, tolerance, progress)
+        progress.report("drawing")
+        result = SolidResult(root, entry.solid, messages_of(root, entry))
+        return display_of(root, entry.solid, self._evaluator), result.measures(), result.messages
+
+    def _export(
+        self, number: int, table: dict[str, Any], path: str, tolerance: float, solid: str | None
+    ) -> tuple[Any, ...]:
+        from ..exchange.export import export_document
+
+        progress = _Progress(self._connection, number, len(table["nodes"]))
+        export_document(from_table(table), Path(path), tolerance, solid, progress)
+        return "exported", number, path
+
+
+def _size(root: Node) -> int:
+    count, stack = 0, [root]
+    while stack:
+        count += 1
+        stack += stack.pop().children
+    return count
+
+
+def shown_key(root: Node, tolerance: float) -> bytes:
+    """What a shown solid is kept under: its value, in place, at a tolerance."""
+    return root.digest + f"{tolerance!r}".encode()
+
+
+class _Progress:
+    """Reports now and then, and stops when a newer request waits."""
+
+    def __init__(self, connection: Connection, number: int, total: int) -> None:
+        self._connection, self._number, self._total = connection, number, total
+        self._done = 0
+        self._next = time.perf_counter() + INTERVAL
+
+    def __call__(self, label: str) -> None:
+        self._done += 1
+        self.report(label)
+
+    def report(self, label: str) -> None:
+        now = time.perf_counter()
+        if now < self._next:
+            return
+        self._next = now + INTERVAL
+        if self._connection.poll():
+            raise Superseded
+        self._connection.send(("progress", self._number, min(self._done, self._total), self._total, label))

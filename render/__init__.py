@@ -1,0 +1,1 @@
+"""Model values as pictures. Imports `model` and VTK, neither Qt nor `gui`."""

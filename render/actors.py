@@ -1,0 +1,141 @@
+"""The actors of one solid: faces, feature edges, silhouette, and the outline of what is selected."""
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+from .look import Look, palette, rgb
+from .outline import Adjacency
+from .polydata import cells_of, lines_of, set_cell_colours, surface_of
+from .shading import shade, unlit
+
+if TYPE_CHECKING:
+    from ..model.solid.display import DisplayMesh
+    from .camera import Camera
+
+Path = tuple[str | int, ...]
+
+SELECTED, HOVERED = 0.6, 0.38  # how much of the highlight's colour is mixed into a face
+
+
+class SolidActors:
+    """What one DisplayMesh looks like; the mesh never changes, the rest does."""
+
+    def __init__(self, mesh: "DisplayMesh", colours: Any) -> None:
+        self.mesh = mesh
+        self.colours = colours
+        self.surface = surface_of(mesh)
+        self.features = lines_of(mesh.edge_points, mesh.edges)
+        self._outline = lines_of(mesh.edge_points, mesh.edges[:0])
+        self._silhouette = vtkPolyData()
+        self._silhouette.SetPoints(self.surface.GetPoints())
+        self.faces = _actor(self.surface, offset=True)
+        self.edges = _actor(self.features)
+        self.silhouette = _actor(self._silhouette)
+        self.outline = _actor(self._outline)
+        for lines in (self.edges, self.silhouette, self.outline):
+            unlit(lines)
+            lines.GetMapper().ScalarVisibilityOff()
+            lines.PickableOff()
+        self._adjacency: Adjacency | None = None
+        self._feature_owners: NDArray[np.int32] | None = None
+        self._outlined: NDArray[np.bool_] = np.zeros(len(mesh.owners), bool)
+        self._palette: NDArray[np.uint8] | None = None
+
+    @property
+    def actors(self) -> tuple[vtkActor, ...]:
+        return self.faces, self.edges, self.silhouette, self.outline
+
+    @property
+    def adjacency(self) -> Adjacency:
+        if self._adjacency is None:
+            self._adjacency = Adjacency(self.mesh)
+        return self._adjacency
+
+    def under(self, paths: Iterable[Path]) -> NDArray[np.bool_]:
+        """Which owners (o,) stand at or below one of the paths in the tree."""
+        wanted = set(paths)
+        lengths = sorted({len(path) for path in wanted})
+        return np.array([any(owner[:n] in wanted for n in lengths) for owner in self.mesh.owners], bool)
+
+    def set_style(self, style: str, shading: str, look: Look, opacity: float, line_width: float) -> None:
+        material = self.faces.GetProperty()
+        if style == "wireframe":
+            material.SetRepresentationToWireframe()
+        else:
+            material.SetRepresentationToSurface()
+        if style in ("shaded", "edges"):
+            shade(self.faces, shading, look)
+            material.SetOpacity(opacity)
+        else:
+            unlit(self.faces)
+            material.SetOpacity(1.0)
+        material.SetLineWidth(max(1.0, 0.5 * line_width))
+        self.edges.SetVisibility(style != "shaded")
+        self.silhouette.SetVisibility(style in ("wireframe", "hidden-line"))
+        # VTK offsets lines by 4 units, enough to shine through thin walls; in wireframe they lie over all triangles.
+        nearer = 2000.0 if style == "wireframe" else -3.0
+        line = look.edge if style == "edges" else look.line
+        for lines, colour, width in (
+            (self.edges, line, line_width),
+            (self.silhouette, line, line_width),
+            (self.outline, look.selection, 1.6 * line_width),
+        ):
+            lines.GetProperty().SetColor(*rgb(colour))
+            lines.GetProperty().SetLineWidth(width)
+            lines.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -nearer)
+        self.outline.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -nearer - 1.0)
+
+    def paint(self, style: str, look: Look, selection: Iterable[Path], hover: Path | None, ground: Any) -> None:
+        """Colour the triangles; `ground` is the background's colour, which the faces of hidden-line pictures take."""
+        colours = palette(self.mesh, self.colours, look)
+        strength = 1.0
+        if style == "wireframe":
+            colours[:] = rgb(look.faint_edge)
+        elif style == "hidden-line":
+            colours[:] = rgb(ground)
+            strength = 0.35
+        selected = self.under(selection)
+        for owners, colour, share in (
+            (selected, look.selection, SELECTED),
+            (self.under(() if hover is None else (hover,)), look.hover, HOVERED),
+        ):
+            colours[: len(owners)][owners] += (
+                strength * share * (np.array(rgb(colour)) - colours[: len(owners)][owners])
+            )
+        bytes_ = np.round(255.0 * colours).astype(np.uint8)
+        if self._palette is None or not np.array_equal(bytes_, self._palette):
+            self._palette = bytes_
+            set_cell_colours(self.surface, bytes_[self.mesh.owner, self.mesh.subtracted.astype(np.intp)])
+        if not np.array_equal(selected, self._outlined):
+            self._outlined = selected
+            self._outline.SetLines(cells_of(self.mesh.edges[self._features_of(selected)]))
+
+    def turn_silhouette(self, camera: "Camera") -> None:
+        """Find the silhouette anew; costs about as much as drawing the lines."""
+        eye = np.asarray(camera.position)
+        towards = eye - camera.target if camera.parallel else eye
+        self._silhouette.SetLines(cells_of(self.adjacency.silhouette(towards, camera.parallel)))
+
+    def _features_of(self, owners: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        if not owners.any():
+            return np.zeros(len(self.mesh.edges), bool)
+        if self._feature_owners is None:
+            self._feature_owners = self.adjacency.owners_of_features()
+        sides = np.append(owners, False)[self._feature_owners]
+        return sides[:, 0] | sides[:, 1]
+
+
+def _actor(data: vtkPolyData, offset: bool = False) -> vtkActor:
+    mapper = vtkPolyDataMapper()
+    mapper.SetInputData(data)
+    mapper.SetResolveCoincidentTopologyToPolygonOffset()
+    if offset:
+        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0)
+    actor = vtkActor()
+    actor.SetMapper(mapper)
+    return actor

@@ -1,0 +1,168 @@
+"""The shown solids as actors of one renderer, updated by identity: what is the same object is not uploaded again."""
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.vtkCommonDataModel import vtkPolyData
+
+from .actors import Path, SolidActors
+from .look import LIGHT, SHADINGS, STYLES, Look, light_up, look_of, set_background
+
+if TYPE_CHECKING:
+    from vtkmodules.vtkRenderingCore import vtkRenderer
+
+    from ..model.solid.display import DisplayMesh
+    from .camera import Camera
+
+
+class Scene:
+    """Solids by the id of their root. Nothing is drawn by any method here: render the window afterwards."""
+
+    def __init__(self, renderer: "vtkRenderer", look: Look = LIGHT) -> None:
+        self.renderer = renderer
+        self.look = look
+        self.style = "shaded"
+        self.shading = "phong"
+        self.opacity = 1.0
+        self.line_scale = 1.0
+        self.selection: frozenset[Path] = frozenset()
+        self.hover: Path | None = None
+        self._background: Any = None
+        self._solids: dict[str, SolidActors] = {}
+        light_up(renderer)
+        self._restyle()
+
+    def show(self, solids: Mapping[str, tuple["DisplayMesh", Any]]) -> None:
+        """Show exactly these solids: id -> (mesh, colours).
+
+        `colours` is a `look.Paint`, or one colour per owner (None: the solid's) as a sequence, an array (o, 3) or a
+        function of the owner's index, or None. A mesh that is the very object shown before is kept as it is; its
+        colours are compared with `is`, Paint with `==`.
+        """
+        for solid_id in [key for key in self._solids if key not in solids]:
+            self._remove(solid_id)
+        for solid_id, (mesh, colours) in solids.items():
+            entry = self._solids.get(solid_id)
+            if entry is not None and entry.mesh is mesh:
+                if entry.colours is not colours and not _same(entry.colours, colours):
+                    entry.colours = colours
+                    self._paint(entry)
+                continue
+            if entry is not None:
+                self._remove(solid_id)
+            entry = SolidActors(mesh, colours)
+            self._solids[solid_id] = entry
+            for actor in entry.actors:
+                self.renderer.AddActor(actor)
+            self._style(entry)
+            self._paint(entry)
+
+    @property
+    def meshes(self) -> dict[str, "DisplayMesh"]:
+        return {solid_id: entry.mesh for solid_id, entry in self._solids.items()}
+
+    def surface(self, solid_id: str) -> vtkPolyData:
+        """The triangles of a shown solid; raises KeyError. For reading: pickers share it."""
+        return self._solids[solid_id].surface
+
+    def set_selection(self, paths: Iterable[Path]) -> None:
+        """Highlight every triangle whose owner's path begins with one of the paths, and outline it."""
+        selection = frozenset(paths)
+        if selection != self.selection:
+            self.selection = selection
+            self._paint_all()
+
+    def set_hover(self, path: Path | None) -> None:
+        """Tint what stands at or below the path; None ends it."""
+        if path != self.hover:
+            self.hover = path
+            self._paint_all()
+
+    def set_style(self, style: str) -> None:
+        """One of look.STYLES, else ValueError."""
+        if style not in STYLES:
+            raise ValueError(f"no style is called {style!r}: take one of {', '.join(STYLES)}")
+        if style != self.style:
+            self.style = style
+            self._restyle()
+
+    def set_shading(self, shading: str) -> None:
+        """One of look.SHADINGS, else ValueError."""
+        if shading not in SHADINGS:
+            raise ValueError(f"no shading is called {shading!r}: take one of {', '.join(SHADINGS)}")
+        if shading != self.shading:
+            self.shading = shading
+            self._restyle()
+
+    def set_look(self, look: Look | str) -> None:
+        """A look, or a theme's name (ValueError for an unknown one)."""
+        self.look = look_of(look) if isinstance(look, str) else look
+        self._restyle()
+
+    def set_opacity(self, opacity: float) -> None:
+        """Of all faces, 0 to 1; below 1 they are depth-peeled. Raises ValueError outside."""
+        if not 0.0 <= opacity <= 1.0:
+            raise ValueError(f"an opacity lies between 0 and 1, not at {opacity}")
+        if opacity != self.opacity:
+            self.opacity = opacity
+            self._restyle()
+
+    def set_line_scale(self, scale: float) -> None:
+        """Device pixels per logical pixel; lines are as many times wider."""
+        if scale != self.line_scale:
+            self.line_scale = scale
+            self._restyle()
+
+    def set_background(self, colour: Any) -> None:
+        """A colour (see look.rgb) instead of the look's gradient, None for the look's again."""
+        self._background = colour
+        self._restyle()
+
+    def visible_bounds(self) -> NDArray[np.float64] | None:
+        """The box (2, 3) around all shown solids, without ground and highlights; None where there is nothing."""
+        boxes = [np.reshape(entry.mesh.bounds, (2, 3)) for entry in self._solids.values() if len(entry.mesh.triangles)]
+        if not boxes:
+            return None
+        lower, upper = np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]
+        return np.array([lower, upper], float)
+
+    def before_render(self, camera: "Camera") -> None:
+        """Bring up to date what depends on the camera: silhouettes in the styles that draw them."""
+        if self.style in ("wireframe", "hidden-line"):
+            for entry in self._solids.values():
+                entry.turn_silhouette(camera)
+
+    def _remove(self, solid_id: str) -> None:
+        for actor in self._solids.pop(solid_id).actors:
+            self.renderer.RemoveActor(actor)
+
+    def _restyle(self) -> None:
+        plain = self.style == "hidden-line"
+        set_background(self.renderer, self.look, plain, self._background)
+        peel = self.opacity < 1.0
+        self.renderer.SetUseOIT(False)
+        self.renderer.SetUseDepthPeeling(peel)
+        self.renderer.SetMaximumNumberOfPeels(24)
+        self.renderer.SetOcclusionRatio(0.0)
+        for entry in self._solids.values():
+            self._style(entry)
+            self._paint(entry)
+
+    def _style(self, entry: SolidActors) -> None:
+        entry.set_style(self.style, self.shading, self.look, self.opacity, 1.25 * self.line_scale)
+
+    def _paint(self, entry: SolidActors) -> None:
+        ground = self.look.plain_background if self._background is None else self._background
+        entry.paint(self.style, self.look, self.selection, self.hover, ground)
+
+    def _paint_all(self) -> None:
+        for entry in self._solids.values():
+            self._paint(entry)
+
+
+def _same(a: Any, b: Any) -> bool:
+    if isinstance(a, np.ndarray) or isinstance(b, np.ndarray):
+        return isinstance(a, np.ndarray) and isinstance(b, np.ndarray) and np.array_equal(a, b)
+    return bool(a == b)

@@ -1,0 +1,195 @@
+"""One picture that is kept up to date: window, scene, ground, view cube and camera. Knows no Qt."""
+
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+from vtkmodules.vtkRenderingCore import vtkRenderer
+
+from . import camera as camera_value
+from .camera import Camera, fit, ray, with_projection
+from .ground import Ground
+from .look import Look, look_of
+from .pick import Pick, Picker
+from .picture import union
+from .scene import Scene
+from .view_cube import ViewCube
+from .views import standard_view
+from .window import close, is_software, native_window, offscreen_window, pixels, smooth
+
+if TYPE_CHECKING:
+    from ..model.solid.display import DisplayMesh
+
+
+class Viewer:
+    """The viewport without its widget.
+
+    All sizes and pixel coordinates are logical pixels, y downward, as Qt's events give them; `scale` says how many
+    device pixels one of them has. No method but `render` draws; each one that changes the picture says so by setting
+    `needs_render`. The order is: construct, `resize`, then `render` when the native window is there to be painted.
+    `close` before the native window goes.
+    """
+
+    def __init__(self, window_id: int | None = None, theme: Look | str = "light") -> None:
+        """Draw into the native window `window_id` (a QWidget's winId()), which stays its owner's; or off screen."""
+        look = look_of(theme) if isinstance(theme, str) else theme
+        self.window = offscreen_window((300, 200)) if window_id is None else native_window(window_id)
+        self.renderer = vtkRenderer()
+        self.window.AddRenderer(self.renderer)
+        self.scene = Scene(self.renderer, look)
+        self.ground = Ground(self.renderer, look)
+        self.cube = ViewCube(self.window, look)
+        self.camera = standard_view(Camera(), "iso")
+        self.size = (300.0, 200.0)
+        self.scale = 1.0
+        self.needs_render = True
+        self.changed_camera: Callable[[Camera], None] | None = None
+        self._picker = Picker()
+        self._software: bool | None = None
+        self._closed = False
+
+    # The window
+
+    def resize(self, width: float, height: float, scale: float = 1.0) -> None:
+        """The viewport's size in logical pixels, and the device pixels per logical one (Qt: devicePixelRatioF)."""
+        self.size, self.scale = (max(float(width), 1.0), max(float(height), 1.0)), scale
+        self.window.SetSize(max(round(self.size[0] * scale), 1), max(round(self.size[1] * scale), 1))
+        self.window.SetDPI(round(96 * scale))
+        self.scene.set_line_scale(scale)
+        self.ground.set_line_scale(scale)
+        self.cube.resize(*self.size, scale)
+        self.needs_render = True
+
+    def render(self) -> None:
+        """Draw the picture now and show it. Does nothing after `close`."""
+        if self._closed:
+            return
+        self.ground.update(self.camera)
+        self.scene.before_render(self.camera)
+        bounds = union(self.scene.visible_bounds(), self.ground.bounds)
+        camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
+        self.cube.turn(self.camera)
+        if self._software is None:
+            self._software = is_software(self.window)
+            self._smooth()
+        self.window.Render()
+        self.needs_render = False
+
+    def pixels(self) -> NDArray[np.uint8]:
+        """What was rendered last: (height, width, 3) bytes in device pixels, first row on top."""
+        return np.ascontiguousarray(pixels(self.window)[..., :3])
+
+    def close(self) -> None:
+        """Free the graphics card. Call it while the native window still exists; afterwards nothing is drawn."""
+        if not self._closed:
+            self._closed = True
+            self.scene.show({})
+            close(self.window)
+
+    # What is shown
+
+    def show(self, solids: Mapping[str, tuple["DisplayMesh", Any]]) -> None:
+        """See `Scene.show`."""
+        self.scene.show(solids)
+        self.needs_render = True
+
+    def set_selection(self, paths: Iterable[tuple[str | int, ...]]) -> None:
+        """See `Scene.set_selection`."""
+        self.scene.set_selection(paths)
+        self.needs_render = True
+
+    def set_hover(self, path: tuple[str | int, ...] | None) -> bool:
+        """See `Scene.set_hover`; whether it changes the picture, so that a mouse move need not redraw."""
+        if path == self.scene.hover:
+            return False
+        self.scene.set_hover(path)
+        self.needs_render = True
+        return True
+
+    def set_theme(self, theme: Look | str) -> None:
+        """ "light", "dark" or a look; ValueError for another name."""
+        look = look_of(theme) if isinstance(theme, str) else theme
+        self.scene.set_look(look)
+        self.ground.set_look(look)
+        self.cube.set_look(look)
+        self.needs_render = True
+
+    def set_style(self, style: str) -> None:
+        """One of look.STYLES; ValueError for another."""
+        self.scene.set_style(style)
+        self.needs_render = True
+
+    def set_shading(self, shading: str) -> None:
+        """One of look.SHADINGS; ValueError for another."""
+        self.scene.set_shading(shading)
+        self.needs_render = True
+
+    def set_opacity(self, opacity: float) -> None:
+        """Of all faces, 0 to 1; ValueError outside."""
+        self.scene.set_opacity(opacity)
+        self._smooth()
+        self.needs_render = True
+
+    def set_ground(self, visible: bool) -> None:
+        self.ground.set_visible(visible)
+        self.needs_render = True
+
+    def set_cube(self, visible: bool) -> None:
+        self.cube.set_visible(visible)
+        self.needs_render = True
+
+    # The camera
+
+    def set_camera(self, camera: Camera) -> None:
+        """Look through another camera. Views and moves are functions on the value: see `camera` and `views`."""
+        if camera != self.camera:
+            self.camera = camera
+            self.needs_render = True
+            if self.changed_camera is not None:
+                self.changed_camera(camera)
+
+    def set_projection(self, parallel: bool) -> None:
+        """Parallel or perspective; what lies at the target's depth keeps its size."""
+        self.set_camera(with_projection(self.camera, parallel))
+
+    def fitted(self, camera: Camera | None = None) -> Camera:
+        """The camera (by default the present one) moved so that all that is shown fits, for an animated move."""
+        aspect = self.size[0] / self.size[1]
+        return fit(self.camera if camera is None else camera, self.scene.visible_bounds(), aspect)
+
+    def fit(self) -> None:
+        """Show all solids; with none, the middle of the ground."""
+        self.set_camera(self.fitted())
+
+    # The pointer
+
+    def ray(self, x: float, y: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """The ray under pixel (x, y), origin and unit direction; in parallel projection it starts before all solids."""
+        origin, direction = ray(self.camera, x, y, self.size)
+        bounds = self.scene.visible_bounds()
+        if self.camera.parallel and bounds is not None:
+            middle = bounds.mean(axis=0)
+            back = float(np.linalg.norm(np.ptp(bounds, axis=0))) + abs(float((middle - origin) @ direction))
+            origin = origin - back * direction
+        return origin, direction
+
+    def pick(self, x: float, y: float) -> Pick | None:
+        """The triangle under pixel (x, y), None for the background. Does not look at the view cube."""
+        return self._picker.pick(self.scene.meshes, *self.ray(x, y))
+
+    def cube_hit(self, x: float, y: float) -> str | None:
+        """The view cube's region under pixel (x, y) as a name for `views.standard_view`; None beside the cube."""
+        return self.cube.hit(x, y)
+
+    def set_cube_hover(self, name: str | None) -> bool:
+        """Highlight a region of the view cube; whether that changes the picture."""
+        changed = self.cube.set_hover(name)
+        self.needs_render = self.needs_render or changed
+        return changed
+
+    def _smooth(self) -> None:
+        """Four samples a pixel on a graphics card, FXAA on the processor and where depths are peeled."""
+        if self._software is not None:
+            samples = 0 if self._software or self.scene.opacity < 1.0 else 4
+            smooth(self.window, [self.renderer, self.cube.renderer], samples)

@@ -1,0 +1,1 @@
+"""Icons, styles and examples, read with `importlib.resources`. Imports nothing."""
