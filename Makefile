@@ -6,8 +6,11 @@
 PYTHON ?= python3
 BIN := .venv/bin
 READY := .venv/.ready
+TOOLS := .venv/.tools
+PIP := $(BIN)/python -m pip install --disable-pip-version-check -q
 EXAMPLE := resources/examples/dumbbell.solidtree
 XVFB := xvfb-run -a -s '-screen 0 1600x1000x24'
+COMPILE := --universal --generate-hashes --custom-compile-command "make lock" -q pyproject.toml
 export PYTHON
 
 .PHONY: run test bench lock wheel clean
@@ -22,7 +25,7 @@ run: $(READY)
 		$(BIN)/solidtree render $(EXAMPLE) dumbbell.png; \
 	fi
 
-test: $(READY)
+test: $(READY) $(TOOLS)
 	@.ci/system-packages xvfb-run xauth
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
@@ -41,15 +44,20 @@ $(READY): requirements.lock pyproject.toml
 	@.ci/system-packages
 	@$(BIN)/python -m pip --version >/dev/null 2>&1 || $(PYTHON) -m venv .venv
 	@echo "Installing the locked dependencies into .venv; this happens once and takes a minute or two."
-	@$(BIN)/python -m pip install --disable-pip-version-check -q --require-hashes -r requirements.lock
-	@$(BIN)/python -m pip install --disable-pip-version-check -q --no-deps --no-build-isolation -e .
+	@$(PIP) --require-hashes -r requirements.lock
+	@$(PIP) --no-deps --no-build-isolation -e .
+	@touch $@
+
+$(TOOLS): $(READY) requirements-dev.lock
+	@echo "Installing the tools for tests."
+	@$(PIP) --require-hashes -r requirements-dev.lock
 	@touch $@
 
 lock:
 	$(PYTHON) -m venv build/uv
 	build/uv/bin/pip install -q uv
-	build/uv/bin/uv pip compile --upgrade --universal --generate-hashes --group dev \
-		--custom-compile-command "make lock" -q pyproject.toml -o requirements.lock
+	build/uv/bin/uv pip compile --upgrade $(COMPILE) --group dev -o requirements-dev.lock
+	build/uv/bin/uv pip compile $(COMPILE) -c requirements-dev.lock --group build -o requirements.lock
 
 wheel: $(READY)
 	rm -rf build/lib build/bdist.*

@@ -1,4 +1,4 @@
-"""QActions made from the table of commands, kept right after every change: menus, toolbars and the palette share them."""
+"""QActions made from the table of commands, kept right after every change, for menus, toolbars and the palette."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ from collections.abc import Iterable
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
-from PySide6.QtWidgets import QMenu, QMenuBar, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QToolBar, QWidget
 
 from ..model.document.commands import Command
 from ..model.document.errors import Refusal
 from .icons import icon
+from .panels.text_line import TextLine
 
 MENUS = ("File", "Edit", "Add", "Combine", "View", "Help")
 
@@ -56,6 +57,9 @@ class Actions(QObject):
 
     def run(self, name: str) -> None:
         command, context, _ = self._entries[name]
+        focus = QApplication.focusWidget()
+        if isinstance(focus, TextLine):
+            focus.submit()  # what is typed counts before what is done next
         try:
             fault = command.fault(context)
             if fault:

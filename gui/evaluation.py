@@ -1,25 +1,36 @@
-"""The window's side of the workers: asks for meshes when the document changes and keeps the latest answer. Never waits."""
+"""The window's side of the workers: asks for meshes when the document changes, keeps the latest answer, never waits."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
-from ..model.document.assets import default_store
 from ..model.document.document import Document
 from ..model.document.session import Session, State
-from ..model.solid.lane import Cancelled, Died, Evaluated, Exported, Lane, LaneMessage, Progress, Shown
-from ..model.solid.tessellation import DEFAULT_TOLERANCE
+
+if TYPE_CHECKING:
+    from ..model.solid.lane import Lane, LaneMessage
+    from ..model.solid.shown import Shown
 
 PATIENCE = 100  # milliseconds before the window says that it is busy
+IDLE = 250  # milliseconds of rest before the worker gets ready for a drag of what is selected
 PREVIEW = 4.0  # how much coarser the tolerance is while a value is being dragged
 
 
 def new_lane(on_message: Callable[[LaneMessage], None]) -> Lane:
+    from ..model.document.assets import default_store
+    from ..model.solid.lane import Lane
+
     return Lane(on_message, default_store().folder)
+
+
+def same_shape(a: Document, b: Document) -> bool:
+    """Whether two documents are the same solids, looks and names apart."""
+    same = a.definitions == b.definitions and a.parameters == b.parameters
+    return same and [(root.id, root.digest) for root in a.solids] == [(root.id, root.digest) for root in b.solids]
 
 
 class Evaluation(QObject):
@@ -32,6 +43,8 @@ class Evaluation(QObject):
     exported = Signal(str, str)
     """Path, and "" or why nothing was written."""
     notice = Signal(str)
+    outdated = Signal()
+    """What is shown is no longer what the document says, and nobody is at work on it."""
     _told = Signal(object)
     _told_of_job = Signal(object)
 
@@ -59,15 +72,27 @@ class Evaluation(QObject):
         self._patience.setSingleShot(True)
         self._patience.setInterval(PATIENCE)
         self._patience.timeout.connect(lambda: self._set_busy(True))
-        # The lanes call from threads of their own: only a queued signal crosses over.
-        self.lane = make_lane(self._told.emit)
-        self.lane.start()
+        self._idle = QTimer(self)
+        self._idle.setSingleShot(True)
+        self._idle.setInterval(IDLE)
+        self._idle.timeout.connect(self._prepare)
+        self.lane: Lane | None = None
         self.jobs: Lane | None = None
+
+    def warm(self) -> None:
+        """Start the worker before there is something to do; after the first picture, which it would delay."""
+        if self.lane is None and not self._closed:
+            # The lanes call from threads of their own: only a queued signal crosses over.
+            self.lane = self._make_lane(self._told.emit)
+            self.lane.start()
+            if self._session.document.roots:
+                self.ask()
 
     @property
     def waiting(self) -> bool:
         """Whether an answer is outstanding."""
-        return self._soon.isActive() or self._request is not None
+        unborn = self.lane is None and bool(self._session.document.roots)
+        return unborn or self._soon.isActive() or self._request is not None
 
     @property
     def exporting(self) -> bool:
@@ -75,8 +100,14 @@ class Evaluation(QObject):
 
     def session_changed(self, before: State, after: State) -> None:
         """Ask once for each pass of the event loop, however many changes it held."""
+        if self.lane is None:
+            return  # it will be asked for what there is then
+        if self._session.previewing and self._asked is not None and same_shape(self._asked[0], after.document):
+            return  # a colour, say: nothing to cut
         if self._asked is None or self._asked[0] is not after.document or self._asked[1] != self._tolerance():
             self._soon.start(0)
+        elif before.selection != after.selection:
+            self._idle.start()
 
     def ask(self) -> None:
         """Ask for the document as it is."""
@@ -85,9 +116,10 @@ class Evaluation(QObject):
     def cancel(self) -> None:
         """Give up what is being computed; what was shown stays."""
         self._soon.stop()
-        if self._request is not None:
+        if self._request is not None and self.lane is not None:
             self._request = None
             self.lane.cancel()
+            self.outdated.emit()
             self.notice.emit("Cancelled: the picture shows the last result")
         if self._exports and self.jobs is not None:
             self._exports.clear()
@@ -102,7 +134,7 @@ class Evaluation(QObject):
         if self.jobs is None:
             self.jobs = self._make_lane(self._told_of_job.emit)
             self.jobs.start()
-        self._exports.add(self.jobs.export(document, path, tolerance or DEFAULT_TOLERANCE, solid))
+        self._exports.add(self.jobs.export(document, path, tolerance or self._tolerance(), solid))
         self._patience.start()
 
     def close(self) -> None:
@@ -110,20 +142,33 @@ class Evaluation(QObject):
             self._closed = True
             self._soon.stop()
             self._patience.stop()
+            self._idle.stop()
             for lane in (self.lane, self.jobs):
                 if lane is not None:
                     lane.close()
 
+    def _prepare(self) -> None:
+        """Let the worker cut what does not depend on the selected node, so that dragging its values is quick."""
+        selection = self._session.selection
+        if self.lane is not None and not self.waiting and not self._session.previewing and len(selection) == 1:
+            self.lane.prepare(self._session.document, selection[0], PREVIEW * self._tolerance())
+
     def _tolerance(self) -> float:
+        from ..model.solid.tessellation import DEFAULT_TOLERANCE
+
         return PREVIEW * DEFAULT_TOLERANCE if self._session.previewing else DEFAULT_TOLERANCE
 
     def _ask(self) -> None:
+        if self.lane is None:
+            return
         self._asked = (self._session.document, self._tolerance())
         self._request = self.lane.evaluate(*self._asked)
         if not self._is_busy and not self._patience.isActive():
             self._patience.start()
 
     def _receive(self, message: LaneMessage) -> None:
+        from ..model.solid.lane import Cancelled, Died, Evaluated, Progress
+
         if self._closed:
             return
         match message:
@@ -134,6 +179,7 @@ class Evaluation(QObject):
                 self._rest()
                 self.latest = message.shown
                 self.shown.emit(message.shown, message.seconds)
+                self._idle.start()
             case Progress(request, done, total, label):
                 if request == self._request:
                     self.progress.emit(done, total, label)
@@ -141,6 +187,7 @@ class Evaluation(QObject):
                 if given_up and request == self._request:
                     self._request = None
                     self._rest()
+                    self.outdated.emit()
                     self.notice.emit(f"Given up: {reason}, twice. Change the document to try again")
                 else:
                     self.notice.emit(f"{reason.capitalize()}; it has been started again and nothing is lost")
@@ -149,6 +196,8 @@ class Evaluation(QObject):
                 self._rest()
 
     def _receive_job(self, message: LaneMessage) -> None:
+        from ..model.solid.lane import Died, Exported, Progress
+
         if self._closed:
             return
         match message:

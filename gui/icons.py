@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from importlib.resources import files
 
@@ -13,7 +14,7 @@ from .. import resources
 from ..model.document.echo import function_name
 from ..model.document.nodes import Node
 
-SIZE = 20
+Colour = str | Callable[[], str] | None
 _pixmaps: dict[tuple[str, int, str], QPixmap] = {}
 
 
@@ -33,7 +34,9 @@ def pixmap(name: str, size: int, colour: str) -> QPixmap:
         text = _text(name)
         if text:
             painter = QPainter(picture)
-            QSvgRenderer(QByteArray(text.replace("currentColor", colour).encode())).render(painter, QRectF(0, 0, size, size))
+            QSvgRenderer(QByteArray(text.replace("currentColor", colour).encode())).render(
+                painter, QRectF(0, 0, size, size)
+            )
             painter.end()
         _pixmaps[key] = picture
     return _pixmaps[key]
@@ -42,7 +45,7 @@ def pixmap(name: str, size: int, colour: str) -> QPixmap:
 class _Engine(QIconEngine):
     """Takes the colour at the moment of drawing, from the application's palette unless one is given."""
 
-    def __init__(self, name: str, colour: str | None = None) -> None:
+    def __init__(self, name: str, colour: Colour = None) -> None:
         super().__init__()
         self._name = name
         self._colour = colour
@@ -66,14 +69,15 @@ class _Engine(QIconEngine):
             return palette.color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.WindowText).name()
         if mode == QIcon.Mode.Selected:
             return palette.color(QPalette.ColorRole.HighlightedText).name()
-        return self._colour or palette.color(QPalette.ColorRole.WindowText).name()
+        given = self._colour() if callable(self._colour) else self._colour
+        return given or palette.color(QPalette.ColorRole.WindowText).name()
 
     def clone(self) -> QIconEngine:
         return _Engine(self._name, self._colour)
 
 
-def icon(name: str, colour: str | None = None) -> QIcon:
-    """The icon of this name; a null icon where the set has none."""
+def icon(name: str, colour: Colour = None) -> QIcon:
+    """The icon of this name, in a colour of its own or the text's; a null icon where the set has none."""
     return QIcon(_Engine(name, colour)) if _text(name) else QIcon()
 
 
@@ -81,3 +85,10 @@ def icon(name: str, colour: str | None = None) -> QIcon:
 def kind_icon(kind: type[Node]) -> QIcon:
     """The picture of a kind of node."""
     return icon(function_name(kind))
+
+
+def severity_icon(error: bool) -> QIcon:
+    """The mark of an error or a warning, in the theme's colour for it."""
+    from .theme import colours_now
+
+    return icon("error", lambda: colours_now().error) if error else icon("warning", lambda: colours_now().warning)

@@ -27,8 +27,8 @@ class Drag(Enum):
 class Navigation(QObject):
     """State of the mouse in one viewport.
 
-    `clicked` (pick or None, whether Ctrl was held), `fit_asked` (pick or None), `view_asked` (name for a standard view),
-    `hovered` (pick or None).
+    `clicked` tells a pick or None and whether Ctrl was held, `fit_asked` and `hovered` a pick or None, `view_asked` the
+    name of a view.
     """
 
     clicked = Signal(object, bool)

@@ -23,6 +23,8 @@ from .icons import icon
 
 NAME, DETAIL, FAULT = Qt.ItemDataRole.UserRole, Qt.ItemDataRole.UserRole + 1, Qt.ItemDataRole.UserRole + 2
 
+LINES, LINE_HEIGHT = 12, 28
+
 
 def score(pattern: str, text: str) -> float | None:
     """How well the letters of `pattern` stand in `text` in this order, higher is better; None where they do not.
@@ -51,8 +53,9 @@ class Palette(QFrame):
     def __init__(self, actions: Actions, parent: QWidget) -> None:
         super().__init__(parent, Qt.WindowType.Popup | Qt.WindowType.FramelessWindowHint)
         self.setObjectName("palette")
-        self.setFrameShape(QFrame.Shape.StyledPanel)
+        self.setProperty("popup", True)
         self._actions = actions
+        self._window = parent
         self.field = QLineEdit(self)
         self.field.setPlaceholderText("Find a command …")
         self.field.setClearButtonEnabled(True)
@@ -78,10 +81,10 @@ class Palette(QFrame):
 
     def open(self) -> None:
         """Show it over the upper middle of the window, with everything listed."""
-        window = self.parentWidget()
-        width, height = min(560, window.width() - 40), min(420, window.height() - 80)
+        window = self._window
+        width = min(560, window.width() - 40)
         corner = window.mapToGlobal(QRect(0, 0, window.width(), 0).topLeft())
-        self.setGeometry(corner.x() + (window.width() - width) // 2, corner.y() + 72, width, height)
+        self.setGeometry(corner.x() + (window.width() - width) // 2, corner.y() + 80, width, 300)
         self.field.clear()
         self._filter("")
         self.show()
@@ -106,6 +109,9 @@ class Palette(QFrame):
             item.setToolTip(command.tip)
             self.list.addItem(item)
         self.list.setCurrentRow(0)
+        lines = min(max(self.list.count(), 1), LINES)
+        self.list.setFixedHeight(lines * LINE_HEIGHT + 4)
+        self.resize(self.width(), self.sizeHint().height())
         if not found:
             self._hint.setText("No command is called that.")
 
@@ -165,4 +171,4 @@ class _Line(QStyledItemDelegate):
         painter.restore()
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
-        return QSize(100, 28)
+        return QSize(100, LINE_HEIGHT)

@@ -18,9 +18,10 @@ LASTING = 8000  # milliseconds that a message stays
 def figure(value: float | None, digits: int = 6) -> str:
     """A measured number as people read it: thin spaces between thousands, no exponent, `digits` significant ones."""
     if value is None:
-        return "–"
-    if value and not 1e-4 <= abs(value) < 1e12:
+        return "\u2013"
+    if abs(value) > 1e-9 and not 1e-4 <= abs(value) < 1e12:
         return f"{value:.{digits}g}"
+    value = round(value, 12) + 0.0  # no -0
     whole = len(str(int(abs(value))))
     text = f"{value:,.{max(0, digits - whole)}f}".replace(",", "\u202f")
     return text.rstrip("0").rstrip(".") if "." in text else text
@@ -105,11 +106,18 @@ class StatusBar(QStatusBar):
         if label:
             self._label.setText(self._label.fontMetrics().elidedText(label, Qt.TextElideMode.ElideMiddle, 220))
 
+    def set_outdated(self) -> None:
+        self.time.setText("out of date")
+        self.time.setToolTip("The picture shows an earlier result; F5 evaluates again")
+        self.time.show()
+
     def set_time(self, seconds: float) -> None:
+        self.time.setToolTip("How long the last evaluation took")
         self.time.setText(f"{seconds * 1000:.0f} ms" if seconds < 1 else f"{seconds:.1f} s")
 
     def set_measures(self, words: str, solids: list[Any]) -> None:
         """Sums over measured solids; empty where there are none."""
+        self.time.setVisible(bool(solids))
         if not solids:
             self.measures.setText("")
             return

@@ -26,6 +26,7 @@ class Colours:
     disabled: str
     border: str
     hover: str
+    checked: str  # of a switch that is on
     accent: str
     on_accent: str
     link: str
@@ -36,14 +37,22 @@ class Colours:
 
 LIGHT = Colours(
     window="#f2f4f7", ground="#ffffff", raised="#fbfcfd", text="#1d242d", muted="#566170", disabled="#98a1ac",
-    border="#d0d7df", hover="#e3e9f0", accent="#2563c4", on_accent="#ffffff", link="#1f5bb8", error="#b3261e",
-    error_ground="#fdeceb", warning="#8a5a00",
+    border="#d0d7df", hover="#e3e9f0", checked="#cfdff7", accent="#2563c4", on_accent="#ffffff", link="#1f5bb8",
+    error="#b3261e", error_ground="#fdeceb", warning="#8a5a00",
 )  # fmt: skip
 DARK = Colours(
     window="#24282e", ground="#1b1e23", raised="#2e333b", text="#e3e7ec", muted="#a4adb8", disabled="#6b7480",
-    border="#3b424c", hover="#333a44", accent="#2f6fca", on_accent="#ffffff", link="#7fb2f2", error="#ff8f86",
-    error_ground="#3d2826", warning="#edb661",
+    border="#3b424c", hover="#333a44", checked="#2d4a73", accent="#2f6fca", on_accent="#ffffff", link="#7fb2f2",
+    error="#ff8f86", error_ground="#3d2826", warning="#edb661",
 )  # fmt: skip
+
+
+_shown = LIGHT
+
+
+def colours_now() -> Colours:
+    """The colours that the application shows."""
+    return _shown
 
 
 class Theme(QObject):
@@ -51,8 +60,8 @@ class Theme(QObject):
 
     changed = Signal(str)
 
-    def __init__(self, application: QApplication, settings: Settings) -> None:
-        super().__init__(application)
+    def __init__(self, application: QApplication, settings: Settings, parent: QObject | None = None) -> None:
+        super().__init__(parent or application)
         self._application = application
         self._settings = settings
         self._name = ""
@@ -94,7 +103,9 @@ class Theme(QObject):
         name = "dark" if dark else "light"
         if name == self._name:
             return
+        global _shown
         self._name = name
+        _shown = self.colours
         self._application.setPalette(palette_of(self.colours))
         self._application.setStyleSheet(style_sheet(self.colours))
         self.changed.emit(name)

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QEvent, QPaintEngine, QSize, Qt, QTimer, QVariantAnimation, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPaintEvent, QResizeEvent, QShowEvent, QWheelEvent
+from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPaintEngine, QPaintEvent, QResizeEvent, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from ..model.document.document import Document
 from ..model.document.session import Session, State
-from ..model.document.tree import walk
+from .flight import Flight
+from .occurrences import paint_of, paths_through, selected_bounds
+from .pointed import Pointed
 
 if TYPE_CHECKING:
     from ..render.camera import Camera
@@ -20,16 +21,15 @@ if TYPE_CHECKING:
     from ..render.viewer import Viewer
     from .navigation import Navigation
 
-ANIMATION = 200  # milliseconds
-Path = tuple[str | int, ...]
-
 
 class Viewport(QWidget):
     """Shows meshes by root id. VTK is loaded by `attach`, when the window is already on the screen.
 
-    `ready` comes once, after that; `hovered` carries words on what lies under the pointer, "" for nothing.
+    `exposed` comes once, when it is on the screen, and `ready` once, after `attach`; `hovered` carries words on what
+    lies under the pointer, "" for nothing.
     """
 
+    exposed = Signal()
     ready = Signal()
     hovered = Signal(str)
     view_changed = Signal()
@@ -51,17 +51,15 @@ class Viewport(QWidget):
         self._session = session
         self._meshes: dict[str, Any] = {}
         self._kept: dict[str, tuple[Any, Any, Any, Any]] = {}
+        self._pointed = Pointed(session)
         self._fit_pending = True
+        self._exposed = False
         self._pending: list[Callable[[Viewer], None]] = []
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._render)
-        self._animation = QVariantAnimation(self)
-        self._animation.setDuration(ANIMATION)
-        self._animation.setStartValue(0.0)
-        self._animation.setEndValue(1.0)
-        self._animation.valueChanged.connect(self._animate)
-        self._way: tuple[Camera, Camera] | None = None
+        self.flight = Flight(self)
+        self.flight.moved.connect(self._flown)
 
     def attach(self, theme: str) -> None:
         """Load VTK and begin to draw."""
@@ -87,9 +85,10 @@ class Viewport(QWidget):
     def close_viewer(self) -> None:
         """Free the graphics card, before the native window goes."""
         self._timer.stop()
-        self._animation.stop()
+        self.flight.stop()
         if self.viewer is not None:
-            self.viewer.close()
+            viewer, self.viewer, self.navigation = self.viewer, None, None
+            viewer.close()
 
     def change(self, change: Callable[[Viewer], None]) -> None:
         """Do something to the viewer, now or when it is there, and draw."""
@@ -146,7 +145,7 @@ class Viewport(QWidget):
 
     def _highlight(self) -> None:
         if self.viewer is not None:
-            owners = (mesh.owners for mesh, in ((entry[2],) for entry in self._kept.values()))
+            owners = (mesh.owners for (mesh,) in ((entry[2],) for entry in self._kept.values()))
             self.viewer.set_selection(paths_through(self._session.selection, owners))
             self.refresh()
 
@@ -179,33 +178,19 @@ class Viewport(QWidget):
 
     def move_to(self, camera: Camera) -> None:
         """Move smoothly to another camera."""
-        if self.viewer is None:
-            return
-        self._animation.stop()
-        if camera.parallel != self.viewer.camera.parallel:
-            camera = replace(camera, parallel=self.viewer.camera.parallel)
-        self._way = (self.viewer.camera, camera)
-        self._animation.start()
+        if self.viewer is not None:
+            now = self.viewer.camera
+            self.flight.go(now, camera if camera.parallel == now.parallel else replace(camera, parallel=now.parallel))
 
-    def _animate(self, value: float) -> None:
-        from ..render.views import interpolate
-
-        if self._way is not None and self.viewer is not None:
-            eased = value * value * (3.0 - 2.0 * value)
-            self.viewer.set_camera(interpolate(*self._way, eased))
+    def _flown(self, camera: Camera) -> None:
+        if self.viewer is not None:
+            self.viewer.set_camera(camera)
             self.refresh()
 
     # The pointer.
 
-    def _owner(self, pick: Pick | None) -> str | None:
-        """The deepest node of the picked face's path that stands in the document."""
-        if pick is None:
-            return None
-        known = {node.id for node in walk(*self._session.document.roots)}
-        return next((part for part in reversed(pick.path) if isinstance(part, str) and part in known), None)
-
     def _clicked(self, pick: Pick | None, adds: bool) -> None:
-        owner, selection = self._owner(pick), self._session.selection
+        owner, selection = self._pointed.owner(pick), self._session.selection
         if owner is None:
             if not adds:
                 self._session.select(())
@@ -217,31 +202,18 @@ class Viewport(QWidget):
             self._session.select((*selection, owner))
 
     def _fit_picked(self, pick: Pick | None) -> None:
-        owner = self._owner(pick)
+        owner = self._pointed.owner(pick)
         meshes = [entry[2] for entry in self._kept.values()]
         self._fit_bounds(None if owner is None else selected_bounds((owner,), meshes))
 
     def _hovered(self, pick: Pick | None) -> None:
-        if self.viewer is None:
-            return
-        owner = self._owner(pick)
-        if pick is None or owner is None:
-            self.viewer.set_hover(None)
-            self.hovered.emit("")
-        else:
-            path = pick.path[: len(pick.path) - pick.path[::-1].index(owner)]
-            self.viewer.set_hover(path)
-            names = {node.id: node.label for node in walk(*self._session.document.roots)}
-            trail = " › ".join(names[part] for part in path if isinstance(part, str) and part in names)  # noqa: RUF001
-            cut = ", left by a subtracted part" if pick.subtracted else ""
-            self.hovered.emit(f"{trail} — facet {pick.facet}{cut}")
-        self.refresh()
-
-    def _still(self) -> None:
-        self._animation.stop()
+        if self.viewer is not None:
+            self.viewer.set_hover(self._pointed.path(pick))
+            self.hovered.emit(self._pointed.words(pick))
+            self.refresh()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        self._still()
+        self.flight.stop()
         if self.navigation is not None:
             self.navigation.press(event)
 
@@ -259,7 +231,7 @@ class Viewport(QWidget):
             self.navigation.double_click(event)
 
     def wheelEvent(self, event: QWheelEvent) -> None:
-        self._still()
+        self.flight.stop()
         if self.navigation is not None:
             self.navigation.wheel(event)
             self.refresh()
@@ -285,7 +257,10 @@ class Viewport(QWidget):
         return None  # type: ignore[return-value]  # VTK paints
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        if self.viewer is not None and not self._timer.isActive():
+        if not self._exposed:
+            self._exposed = True
+            self.exposed.emit()
+        elif self.viewer is not None and not self._timer.isActive():
             self._timer.start(0)
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -308,43 +283,3 @@ class Viewport(QWidget):
         if self.viewer is not None and self.isVisible():
             self.viewer.render()
             self.view_changed.emit()
-
-
-def paths_through(ids: Iterable[str], owners: Iterable[Iterable[Path]]) -> set[Path]:
-    """The parts of the owners' paths that end at one of the nodes."""
-    wanted = set(ids)
-    if not wanted:
-        return set()
-    return {path[: i + 1] for paths in owners for path in paths for i, part in enumerate(path) if part in wanted}
-
-
-def selected_bounds(ids: Iterable[str], meshes: Iterable[Any]) -> Any:
-    """The box (2, 3) around the faces that these nodes made, None where there are none."""
-    import numpy as np
-
-    wanted = set(ids)
-    boxes = []
-    for mesh in meshes:
-        mine = np.array([bool(wanted.intersection(path)) for path in mesh.owners], bool)
-        faces = mesh.triangles[mine[mesh.owner]] if len(mine) else mesh.triangles[:0]
-        if len(faces):
-            points = mesh.points[np.unique(faces)]
-            boxes.append((points.min(axis=0), points.max(axis=0)))
-    if not boxes:
-        return None
-    lower, upper = zip(*boxes, strict=True)
-    return np.array([np.min(lower, axis=0), np.max(upper, axis=0)], float)
-
-
-def paint_of(document: Document, root: Any, mesh: Any) -> Any:
-    """Each owner's colour: that of the lowest coloured node on its path below the root, the root's by default."""
-    from ..render.look import Paint
-
-    colours = {node.id: node.colour for node in walk(root, *document.definitions) if node.colour is not None}
-    if not colours:
-        return Paint()
-    owners = tuple(
-        next((colours[part] for part in reversed(path) if isinstance(part, str) and part in colours), None)
-        for path in mesh.owners
-    )
-    return Paint(root.colour, owners)

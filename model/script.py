@@ -11,10 +11,11 @@ world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `c
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from .document import placement
 from .document.document import Document, Parameter
 from .document.errors import Refusal
 from .document.expression import Expression, Number
@@ -29,8 +30,8 @@ from .document.nodes import (
     Node,
     PolarArray,
     Union,
-    field_specs,
 )
+from .document.parameters import declared, names_of
 from .document.placement import Affine, Move, Reflect, Scale, Turn
 from .document.primitives import (
     Box,
@@ -47,7 +48,7 @@ from .document.primitives import (
     Sphere,
     Torus,
 )
-from .document.tree import numbered, walk
+from .document.tree import numbered, unique_name, walk
 
 Value = Number | str | int
 """A number, an expression, or an expression's text."""
@@ -68,9 +69,9 @@ def parameter(
     >>> box(width, width / 2, 3)
     <Box ...>
     """
-    declared = Parameter(name, value, minimum, maximum, tuple(choices), note, group)
-    below = declared.value.declares if isinstance(declared.value, Expression) else ()
-    return Expression(name, (*below, declared))
+    new = Parameter(name, value, minimum, maximum, tuple(choices), note, group)
+    below = new.value.declares if isinstance(new.value, Expression) else ()
+    return Expression(new.name, (*below, new))
 
 
 def box(x: Any = 20, y: Value | None = None, z: Value | None = None, centred: bool = False, *, size: Any = None) -> Box:
@@ -80,7 +81,7 @@ def box(x: Any = 20, y: Value | None = None, z: Value | None = None, centred: bo
     6000.0
     """
     wanted = x if size is None else size
-    if isinstance(wanted, Sequence) and not isinstance(wanted, str):
+    if isinstance(wanted, Iterable) and not isinstance(wanted, str):
         return Box(size=tuple(wanted), centred=centred)
     if size is not None:
         return Box(size=(size, size, size), centred=centred)
@@ -149,7 +150,7 @@ def halfspace(normal: Sequence[Value] = (0, 0, 1), point: Sequence[Value] = (0, 
     return Halfspace(normal=tuple(normal), point=tuple(point))
 
 
-def polyhedron(points: Iterable[Sequence[float]], faces: Iterable[Sequence[int]]) -> Polyhedron:
+def polyhedron(points: Iterable[Sequence[Value]] = (), faces: Iterable[Sequence[int]] = ()) -> Polyhedron:
     """A closed surface: `points` (n, 3), and `faces` as indices, counter-clockwise seen from outside.
 
     >>> tetrahedron = polyhedron([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)],
@@ -160,7 +161,7 @@ def polyhedron(points: Iterable[Sequence[float]], faces: Iterable[Sequence[int]]
     return Polyhedron(points=tuple(tuple(p) for p in points), faces=tuple(tuple(f) for f in faces))
 
 
-def imported_mesh(asset: str, file_format: str = "stl", part: int = 0, unit: Value = 1) -> ImportedMesh:
+def imported_mesh(asset: str = "", file_format: str = "stl", part: int = 0, unit: Value = 1) -> ImportedMesh:
     """One solid of a mesh file that is among the assets already, by its SHA-256; `mesh` reads a file."""
     return ImportedMesh(asset=asset, file_format=file_format, part=part, unit=unit)
 
@@ -191,13 +192,13 @@ def circle(radius: Value = 10, segments: int | None = None, tolerance: Value | N
     return Circle(radius=radius, segments=segments, tolerance=tolerance)
 
 
-def polygon(points: Iterable[Sequence[Value]]) -> Polygon:
-    """A closed outline of straight sides through `points` (n, 2).
+def polygon(points: Iterable[Sequence[Value]] = (), loops: Iterable[Sequence[int]] = ()) -> Polygon:
+    """A closed outline of straight sides through `points` (n, 2); `loops` of indices make holes (even-odd rule).
 
     >>> measure(extrude(polygon([(0, 0), (4, 0), (0, 3)]), 2)).volume
     12.0
     """
-    return Polygon(points=tuple(tuple(p) for p in points))
+    return Polygon(points=tuple(tuple(p) for p in points), loops=tuple(tuple(loop) for loop in loops))
 
 
 def extrude(
@@ -250,7 +251,7 @@ def union(*solids: Node | Iterable[Node]) -> Union:
     return Union(children=_solids(solids))
 
 
-def difference(first: Node | Iterable[Node], *others: Node | Iterable[Node]) -> Difference:
+def difference(first: Node | Iterable[Node] = (), *others: Node | Iterable[Node]) -> Difference:
     """The first solid less all others; `a - b` in short.
 
     >>> measure(difference(box(2), box(1))).volume
@@ -277,7 +278,7 @@ def hull(*solids: Node | Iterable[Node]) -> Hull:
     return Hull(children=_solids(solids))
 
 
-def minkowski(first: Node | Iterable[Node], *others: Node | Iterable[Node]) -> Minkowski:
+def minkowski(first: Node | Iterable[Node] = (), *others: Node | Iterable[Node]) -> Minkowski:
     """The first solid swept by each of the others (Minkowski sum).
 
     >>> measure(minkowski(box(3), box(1))).volume
@@ -321,34 +322,38 @@ def mirror(
     return Mirror(children=(solid,), normal=tuple(normal), point=tuple(point), keep=keep)
 
 
-def instance(definition: str) -> Instance:
+def instance(definition: str = "") -> Instance:
     """The document's definition of this id, once more; it has a meaning only in that document."""
     return Instance(definition=definition)
 
 
-def at(*numbers: Value) -> Move:
-    """A placement step for `place`."""
-    return Move(numbers)
+def at(x: Value = 0, y: Value = 0, z: Value = 0) -> Move:
+    """A placement step for `place`: a move by millimetres.
+
+    >>> box(1).placed(turned(z=45), at(5)) == box(1).turned(z=45).at(5)
+    True
+    """
+    return placement.moved(x, y, z)
 
 
-def turned(*numbers: Value) -> Turn:
-    """A placement step for `place`."""
-    return Turn(numbers)
+def turned(x: Value = 0, y: Value = 0, z: Value = 0) -> Turn:
+    """A placement step for `place`: a turn by degrees about x, then y, then z."""
+    return placement.turned(x, y, z)
 
 
-def scaled(*numbers: Value) -> Scale:
-    """A placement step for `place`."""
-    return Scale(numbers)
+def scaled(x: Value = 1, y: Value | None = None, z: Value | None = None) -> Scale:
+    """A placement step for `place`: a scaling by one factor, or by one for each axis."""
+    return placement.scaled(x, y, z)
 
 
-def mirrored(normal: Sequence[Value]) -> Reflect:
-    """A placement step for `place`."""
+def mirrored(normal: Sequence[Value] = (1, 0, 0)) -> Reflect:
+    """A placement step for `place`: a reflection in the plane through the origin with this normal."""
     return Reflect(tuple(normal))
 
 
 def transformed(matrix: Iterable[Iterable[Value]]) -> Affine:
-    """A placement step for `place`: a (3, 4) matrix."""
-    return Affine(tuple(number for row in list(matrix)[:3] for number in row))
+    """A placement step for `place`: a map by a (3, 4) matrix."""
+    return placement.affine(matrix)
 
 
 def document_of(*solids: Node | Document, **named: Node) -> Document:
@@ -357,8 +362,6 @@ def document_of(*solids: Node | Document, **named: Node) -> Document:
         return solids[0]
     roots: list[Node] = []
     taken: set[str] = set()
-    from .document.tree import unique_name
-
     for name, solid in [*((None, solid) for solid in solids), *named.items()]:
         if not isinstance(solid, Node):
             raise Refusal(f"a document holds solids, not {solid!r:.60}")
@@ -368,30 +371,25 @@ def document_of(*solids: Node | Document, **named: Node) -> Document:
     return Document(solids=numbered(roots), parameters=_declared(roots))
 
 
+def document_from(table: Mapping[str, Any]) -> Document:
+    """The document of a table, the plain values that project files hold; logs write large trees and documents so.
+
+    >>> document_from({"nodes": {"n1": {"kind": "Box", "name": "lid"}}, "solids": ["n1"]}).solids
+    (<Box “lid” n1>,)
+    """
+    from .document.table import from_table
+
+    return from_table(table)
+
+
 def _declared(roots: Iterable[Node]) -> tuple[Parameter, ...]:
-    found: dict[str, Parameter] = {}
-    used: set[str] = set()
-    for node in walk(*roots):
-        if not node.symbolic:
-            continue
-        values = [getattr(node, spec.name) for spec in field_specs(type(node))]
-        for expression in _expressions([values, [step.numbers for step in node.placement.steps]]):
-            used |= expression.names()
-            for declared in expression.declares:
-                if found.setdefault(declared.name, declared) != declared:
-                    raise Refusal(f"the parameter {declared.name} is declared twice, with different values")
+    expressions = [expression for node in walk(*roots) for expression in node.expressions()]
+    found = declared(expressions)
+    used = names_of([*expressions, *(parameter.value for parameter in found.values())])
     missing = sorted(used - found.keys())
     if missing:
-        raise Refusal(f"there is no parameter called {missing[0]}; declare it with parameter(“{missing[0]}”, …)")
+        raise Refusal(f"there is no parameter called {missing[0]}; declare it with parameter({missing[0]!r}, …)")
     return tuple(found.values())
-
-
-def _expressions(value: Any) -> Iterable[Expression]:
-    if isinstance(value, Expression):
-        yield value
-    elif isinstance(value, list | tuple):
-        for item in value:
-            yield from _expressions(item)
 
 
 def evaluate(*solids: Node | Document, tolerance: float = 0.05):
@@ -440,8 +438,8 @@ def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: floa
 
 
 __all__ = [
-    "Document", "Refusal", "at", "box", "circle", "cone", "cylinder", "difference", "document_of", "evaluate",
-    "extrude", "halfspace", "hull", "imported_mesh", "instance", "intersection", "linear_array", "measure", "mesh",
-    "minkowski", "mirror", "mirrored", "open_document", "parameter", "polar_array", "polygon", "polyhedron",
-    "rectangle", "revolve", "save", "scaled", "sphere", "torus", "transformed", "turned", "union",
+    "Document", "Refusal", "at", "box", "circle", "cone", "cylinder", "difference", "document_from", "document_of",
+    "evaluate", "extrude", "halfspace", "hull", "imported_mesh", "instance", "intersection", "linear_array",
+    "measure", "mesh", "minkowski", "mirror", "mirrored", "open_document", "parameter", "polar_array", "polygon",
+    "polyhedron", "rectangle", "revolve", "save", "scaled", "sphere", "torus", "transformed", "turned", "union",
 ]  # fmt: skip

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QIcon, QPixmap
-from PySide6.QtWidgets import QColorDialog, QHBoxLayout, QLineEdit, QToolButton, QWidget
+from PySide6.QtWidgets import QColorDialog, QHBoxLayout, QToolButton, QWidget
 
 from ...model.document.errors import Refusal
 from ...model.document.operations import OPERATIONS
 from ...model.document.session import Session
 from ..icons import icon
+from .text_line import TextLine
 
 
 class ColourField(QWidget):
@@ -22,9 +23,10 @@ class ColourField(QWidget):
         self._colour: str | None = None
         self.swatch = QToolButton(self)
         self.swatch.setObjectName("swatch")
+        self.swatch.setProperty("flat", True)
         self.swatch.setToolTip("Choose a colour")
         self.swatch.clicked.connect(self._choose)
-        self.text = QLineEdit(self)
+        self.text = TextLine(parent=self)
         self.text.setObjectName("colour")
         self.text.setAccessibleName("Colour")
         self.text.setToolTip("#rrggbb or a name such as steelblue; empty: that of what it stands in")
@@ -48,9 +50,12 @@ class ColourField(QWidget):
             self.text.setText(self._colour or "")
             self._fault(None)
         self.clear.setEnabled(colours != {None})
-        picture = QPixmap(16, 16)
-        picture.fill(QColor(self._colour) if self._colour else Qt.GlobalColor.transparent)
-        self.swatch.setIcon(QIcon(picture))
+        if self._colour is None:
+            self.swatch.setIcon(icon("colour"))
+        else:
+            picture = QPixmap(16, 16)
+            picture.fill(QColor(self._colour))
+            self.swatch.setIcon(QIcon(picture))
 
     def _typed(self) -> None:
         if self.text.isModified():

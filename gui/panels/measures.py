@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class MeasuresView(QWidget):
-    """A table of words; "–" where there is no value."""
+    """A table of words; a dash where there is no value."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -37,7 +37,7 @@ class MeasuresView(QWidget):
         for row, name in enumerate(("Volume", "Area", "Size", "From", "To", "Centroid", "Triangles", "Genus")):
             label = QLabel(name, self)
             label.setProperty("muted", True)
-            value = QLabel("–", self)
+            value = QLabel("\u2013", self)
             value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
             value.setWordWrap(True)
             right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop
@@ -51,7 +51,7 @@ class MeasuresView(QWidget):
     def set_measures(self, measures: Measures | None) -> None:
         words = {} if measures is None else words_of(measures)
         for name, label in self._values.items():
-            label.setText(words.get(name, "–"))
+            label.setText(words.get(name, "\u2013"))
         self.copy_button.setEnabled(bool(words))
 
     def _copy(self) -> None:
@@ -60,10 +60,14 @@ class MeasuresView(QWidget):
 
 def words_of(measures: Measures) -> dict[str, str]:
     words = {
-        "Volume": f"{figure(measures.volume, 9)} mm³" if measures.volume is not None else "– (the surface is not closed)",
+        "Volume": f"{figure(measures.volume, 9)} mm³"
+        if measures.volume is not None
+        else "\u2013 (the surface is not closed)",
         "Area": f"{figure(measures.area, 9)} mm²",
         "Triangles": figure(measures.triangles, 12),
-        "Genus": str(measures.genus) if measures.components == 1 else f"{measures.genus} in {measures.components} surfaces",
+        "Genus": str(measures.genus)
+        if measures.components == 1
+        else f"{measures.genus} in {measures.components} surfaces",
     }
     if measures.bounds is not None:
         low, high = measures.bounds
@@ -71,5 +75,5 @@ def words_of(measures: Measures) -> dict[str, str]:
         words["From"] = ", ".join(figure(a) for a in low)
         words["To"] = ", ".join(figure(b) for b in high)
     if measures.centroid is not None:
-        words["Centroid"] = ", ".join(figure(round(x, 9)) for x in measures.centroid)
+        words["Centroid"] = ", ".join(figure(x) for x in measures.centroid)
     return words

@@ -56,8 +56,9 @@ class Edit:
         self._session.cancel()
 
 
-def sentence(refusal: Refusal) -> str:
-    text = str(refusal)
+def sentence(words: Refusal | str) -> str:
+    """With a capital first letter."""
+    text = str(words)
     return text[:1].upper() + text[1:]
 
 

@@ -13,7 +13,16 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QContextMenuEvent, QDragMoveEvent, QDropEvent, QKeyEvent, QMouseEvent, QPainter
+from PySide6.QtGui import (
+    QContextMenuEvent,
+    QDragMoveEvent,
+    QDropEvent,
+    QIcon,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QResizeEvent,
+)
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -31,6 +40,9 @@ from ..actions import Actions
 from .tree_model import BADGE, EYE, NAME, TreeModel
 
 OPEN_AT_MOST = 3000  # rows; a larger tree opens its first level only
+DEEP = 24  # levels from which on rows are indented less
+WIDE, NARROW = 16, 8  # pixels of indentation
+NAME_WIDTH, NARROW_COLUMN = 110, 26
 CONTEXT_MENU = (
     "rename", "toggle_visible", "", "union", "difference", "intersection", "hull", "", "linear_array", "polar_array",
     "mirror", "", "duplicate", "link", "unlink", "dissolve", "delete", "", "fit_selection",
@@ -57,18 +69,15 @@ class Tree(QTreeView):
         header = self.header()
         header.setStretchLastSection(False)
         header.setMinimumSectionSize(20)
-        header.setSectionResizeMode(NAME, QHeaderView.ResizeMode.Stretch)
+        header.setSectionResizeMode(NAME, QHeaderView.ResizeMode.Fixed)
         for column in (BADGE, EYE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
-            header.resizeSection(column, 26)
+            header.resizeSection(column, NARROW_COLUMN)
         self.setItemDelegate(_Cell(self))
         self.setIconSize(QSize(18, 18))
-        self.setIndentation(16)
         self.setUniformRowHeights(True)
         self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
-        self.setEditTriggers(
-            QAbstractItemView.EditTrigger.EditKeyPressed | QAbstractItemView.EditTrigger.DoubleClicked
-        )
+        self.setEditTriggers(QAbstractItemView.EditTrigger.EditKeyPressed | QAbstractItemView.EditTrigger.DoubleClicked)
         self.setExpandsOnDoubleClick(False)
         self.setDragDropMode(QAbstractItemView.DragDropMode.DragDrop)
         self.setDefaultDropAction(Qt.DropAction.MoveAction)
@@ -79,6 +88,7 @@ class Tree(QTreeView):
         self.collapsed.connect(lambda index: self._note(index, False))
         self.expanded.connect(lambda index: self._note(index, True))
         session_state = session.state
+        self._fit_columns()
         self._open_all()
         self._select(session_state.selection)
 
@@ -88,6 +98,7 @@ class Tree(QTreeView):
             self._following = True
             try:
                 self.nodes.update(after.document)
+                self._fit_columns()
             finally:
                 self._following = False
         if new or before.selection != after.selection:
@@ -123,11 +134,31 @@ class Tree(QTreeView):
                 self.selectionModel().setCurrentIndex(indexes[-1], flags.NoUpdate)
             self.selectionModel().select(selection, flags.ClearAndSelect)
             if indexes:
-                self.scrollTo(indexes[-1])
+                self._reveal(indexes[-1])
         finally:
             self._following = False
 
-    # What is open.
+    def _reveal(self, index: QModelIndex) -> None:
+        """Scroll to a row, sideways too where names stand far to the right."""
+        self.scrollTo(index)
+        left, bar = self.visualRect(index).left(), self.horizontalScrollBar()
+        if not 0 <= left <= self.viewport().width() - NAME_WIDTH // 2:
+            bar.setValue(bar.value() + left - self.viewport().width() // 3)
+
+    # What is open, and how wide it gets.
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        super().resizeEvent(event)
+        self._fit_columns()
+
+    def _fit_columns(self) -> None:
+        """Names fill the width; below many levels they go on to the right, where the view scrolls."""
+        deepest = self.nodes.deepest
+        indentation = WIDE if deepest < DEEP else NARROW
+        if self.indentation() != indentation:
+            self.setIndentation(indentation)
+        room = self.viewport().width() - 2 * NARROW_COLUMN
+        self.header().resizeSection(NAME, max(room, (deepest + 1) * indentation + NAME_WIDTH))
 
     def _open_all(self) -> None:
         if len(self.nodes._by_id) <= OPEN_AT_MOST:
@@ -230,7 +261,7 @@ class _Cell(QStyledItemDelegate):
             super().paint(painter, option, index)
             return
         self.initStyleOption(option, index)
-        picture, option.icon = option.icon, type(option.icon)()
+        picture, option.icon = QIcon(option.icon), QIcon()
         option.features &= ~QStyleOptionViewItem.ViewItemFeature.HasDecoration
         option.widget.style().drawControl(QStyle.ControlElement.CE_ItemViewItem, option, painter, option.widget)
         if not picture.isNull():

@@ -17,27 +17,16 @@ from ...model.document.nodes import Instance, Node
 from ...model.document.operations import OPERATIONS
 from ...model.document.session import Session
 from ...model.document.tree import find
-from ..icons import icon, kind_icon
+from ..icons import icon, kind_icon, severity_icon
+from .tree_rows import Row, longest_rising, runs
 
 if TYPE_CHECKING:
-    from ...model.solid.results import Message
+    from ...model.solid.shown import Message
 
 NAME, BADGE, EYE = range(3)
 MIME = "application/x-solidtree-nodes"
 Index = QModelIndex | QPersistentModelIndex
 NOWHERE = QModelIndex()
-
-
-class Row:
-    """One node on the screen. `children` mirrors the node's operands."""
-
-    __slots__ = ("children", "key", "node", "parent")
-
-    def __init__(self, node: Node | None, parent: Row | None, key: int) -> None:
-        self.node: Node = node  # type: ignore[assignment]  # None in the invisible root alone
-        self.parent = parent
-        self.key = key
-        self.children: list[Row] = []
 
 
 class TreeModel(QAbstractItemModel):
@@ -53,6 +42,8 @@ class TreeModel(QAbstractItemModel):
         self._rows: dict[int, Row] = {0: self._root}
         self._by_id: dict[str, Row] = {}
         self._roots: tuple[Node, ...] = ()
+        self.deepest = 0
+        """The level of the lowest row since the model was empty."""
         self._definitions: frozenset[str] = frozenset()
         self._problems: dict[str, tuple[str, str]] = {}
         self.update(session.document)
@@ -85,29 +76,35 @@ class TreeModel(QAbstractItemModel):
         if [child.node.id for child in row.children] == [node.id for node in nodes]:
             return
         wanted = {node.id: place for place, node in enumerate(nodes)}
-        kept = set(_longest_rising([wanted.get(child.node.id, -1) for child in row.children]))
-        for first, last in reversed(list(_runs(i for i in range(len(row.children)) if i not in kept))):
+        kept = set(longest_rising([wanted.get(child.node.id, -1) for child in row.children]))
+        for first, last in reversed(list(runs(i for i in range(len(row.children)) if i not in kept))):
             self.beginRemoveRows(self._index(row), first, last)
             gone, row.children[first : last + 1] = row.children[first : last + 1], []
             self._forget(gone)
             self.endRemoveRows()
+            if not self._by_id:
+                self.deepest = 0
         have = {child.node.id for child in row.children}
-        for first, last in _runs(i for i, node in enumerate(nodes) if node.id not in have):
+        for first, last in runs(i for i, node in enumerate(nodes) if node.id not in have):
             self.beginInsertRows(self._index(row), first, last)
             row.children[first:first] = [self._make(node, row) for node in nodes[first : last + 1]]
             self.endInsertRows()
 
     def _make(self, node: Node, parent: Row) -> Row:
         top = Row(node, parent, 0)
-        stack = [top]
+        level, above = 0, parent
+        while above.parent is not None:
+            level, above = level + 1, above.parent
+        stack = [(top, level)]
         while stack:
-            row = stack.pop()
+            row, level = stack.pop()
+            self.deepest = max(self.deepest, level)
             row.key = self._next
             self._next += 1
             self._rows[row.key] = row
             self._by_id[row.node.id] = row
             row.children = [Row(child, row, 0) for child in row.node.children]
-            stack += row.children
+            stack += [(child, level + 1) for child in row.children]
         return top
 
     def _forget(self, rows: list[Row]) -> None:
@@ -184,7 +181,7 @@ class TreeModel(QAbstractItemModel):
                 return "\n".join(part for part in (f"{node.label}: {node.title.lower()}", node.note, message) if part)
         elif column == BADGE:
             if role == roles.DecorationRole and severity:
-                return icon(severity)
+                return severity_icon(severity == "error")
             if role == roles.ToolTipRole:
                 return message or None
         elif column == EYE:
@@ -288,37 +285,3 @@ class TreeModel(QAbstractItemModel):
 
 def ids_of(data: QMimeData) -> list[str]:
     return bytes(data.data(MIME).data()).decode().split("\n") if data.hasFormat(MIME) else []
-
-
-def _runs(places: Iterable[int]) -> Iterable[tuple[int, int]]:
-    """Rising numbers as (first, last) of each part without a gap."""
-    runs: list[tuple[int, int]] = []
-    for place in places:
-        if runs and runs[-1][1] == place - 1:
-            runs[-1] = (runs[-1][0], place)
-        else:
-            runs.append((place, place))
-    return runs
-
-
-def _longest_rising(values: list[int]) -> list[int]:
-    """Places of a longest strictly rising part of `values`, negative ones left out (Fredman 1975)."""
-    from bisect import bisect_left
-
-    ends: list[int] = []
-    places: list[int] = []
-    before: list[int] = []
-    for place, value in enumerate(values):
-        before.append(-1)
-        if value < 0:
-            continue
-        at = bisect_left(ends, value)
-        before[place] = places[at - 1] if at else -1
-        ends[at : at + 1] = [value]
-        places[at : at + 1] = [place]
-    chain: list[int] = []
-    place = places[-1] if places else -1
-    while place >= 0:
-        chain.append(place)
-        place = before[place]
-    return chain

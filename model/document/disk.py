@@ -32,6 +32,11 @@ def reason_of(error: OSError) -> str:
     return _REASONS.get(error.errno or 0, (error.strerror or "the file cannot be used").lower())
 
 
+def one_line(text: str) -> str:
+    """A message that quotes a file, without the line breaks and control characters that the file may have."""
+    return "".join(c if c.isprintable() else "·" for c in text[:500])
+
+
 def read_whole(path: str | os.PathLike[str], most: int) -> bytes:
     """The bytes of a file of at most `most` bytes. Raises Refusal."""
     try:

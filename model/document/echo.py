@@ -5,9 +5,16 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
+from .document import Document
 from .expression import Expression
 from .nodes import Instance, Node, field_specs
-from .placement import Affine, Move, Reflect, Scale, Step, Turn
+from .parameters import parameter_arguments
+from .placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
+from .table import to_table
+from .tree import numbered
+
+MAX_NESTING = 60
+"""Python cannot read calls nested some 200 deep; such a tree is written as its table."""
 
 # The script API's name of each kind where it is not simply the kind in lower case.
 FUNCTION_NAMES = {
@@ -22,7 +29,9 @@ def function_name(kind: type[Node]) -> str:
 
 
 def number_text(value: Any) -> str:
-    """A field's value in Python: whole numbers without a fraction, expressions as text."""
+    """A field's value in Python: whole numbers without a fraction, expressions as text, arrays as lists."""
+    if hasattr(value, "tolist"):  # NumPy's numbers and arrays
+        value = value.tolist()
     if isinstance(value, Expression):
         return repr(value.text)
     if isinstance(value, tuple):
@@ -40,9 +49,37 @@ def call(name: str, *arguments: Any, **keywords: Any) -> str:
     return f"{name}({', '.join(parts)})"
 
 
+def step(before: Document, after: Document, name: str, *arguments: Any, **keywords: Any) -> str:
+    """The lines that do again what an operation did: parameters that came with an expression are set first."""
+    known = {parameter.name for parameter in before.parameters}
+    if name == "set_parameter":
+        known.add(arguments[0] if arguments else keywords["name"])
+    elif name == "rename_parameter":
+        known |= {parameter.name for parameter in after.parameters}
+    lines = [
+        call("set_parameter", parameter.name, parameter.value, **parameter_arguments(parameter))
+        for parameter in after.parameters
+        if parameter.name not in known
+    ]
+    return "\n".join([*lines, call(name, *arguments, **keywords)])
+
+
+def _depth(root: Node) -> int:
+    deepest, stack = 0, [(root, 1)]
+    while stack:
+        node, depth = stack.pop()
+        deepest = max(deepest, depth)
+        stack += [(child, depth + 1) for child in node.children]
+    return deepest
+
+
 def _argument(value: Any) -> str:
     if isinstance(value, Node):
-        return script_of(value)
+        if _depth(value) <= MAX_NESTING:
+            return script_of(value)
+        return f"{_argument(Document(solids=numbered([value])))}.solids[0]"
+    if isinstance(value, Document):
+        return f"document_from({to_table(value)!r})"
     if isinstance(value, Step):
         return _step(value).removeprefix(".")
     if isinstance(value, list):
@@ -78,11 +115,20 @@ def _one(node: Node, operands: list[str]) -> str:
         if value != defaults[spec.name] or isinstance(node, Instance):
             parts.append(f"{spec.name}={number_text(value)}")
     text = f"{function_name(kind)}({', '.join(parts)})"
-    text += "".join(_step(step) for step in node.placement.steps)
+    text += _placed(node.placement)
     for method, value in (("named", node.name), ("coloured", node.colour), ("noted", node.note)):
         if value:
             text += f".{method}({value!r})"
     return text if node.visible else text + ".hidden()"
+
+
+def _placed(placement: Placement) -> str:
+    joined = Placement()
+    for one in placement.steps:
+        joined = joined.then(one)
+    if joined == placement:
+        return "".join(map(_step, placement.steps))
+    return f".placed({', '.join(_step(one).removeprefix('.') for one in placement.steps)})"
 
 
 _METHODS: dict[type[Step], str] = {Move: "at", Turn: "turned", Scale: "scaled"}

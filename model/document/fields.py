@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
@@ -42,7 +42,7 @@ class FieldSpec:
             case "vector" | "direction":
                 return vector(value, what)
             case "flag":
-                if not isinstance(value, bool | int):
+                if value not in (True, False) or not isinstance(value, bool | int):
                     raise Refusal(f"{what} must be true or false, not {value!r:.60}")
                 return bool(value)
             case "text":
@@ -51,9 +51,9 @@ class FieldSpec:
                 return value
             case "points":
                 width = 2 if self.unit == "2-D" else 3
-                return tuple(vector(p, f"{what}: point {i}", width) for i, p in enumerate(value or ()))
+                return tuple(vector(p, f"{what}: point {i}", width) for i, p in enumerate(_items(value, what)))
             case "faces":
-                return tuple(tuple(_index(i, what) for i in face) for face in value or ())
+                return tuple(tuple(_index(i, what) for i in _items(face, what)) for face in _items(value, what))
         return number(value, what)
 
     def range_fault(self, value: Any) -> str | None:
@@ -65,6 +65,12 @@ class FieldSpec:
                 bound = "above" if self.above else "at least"
                 return f"{self.label.lower()} must be {bound} {self.minimum:g}, not {one:g}"
         return None
+
+
+def _items(value: Any, what: str) -> Iterable[Any]:
+    if isinstance(value, str) or not isinstance(value, Iterable):
+        raise Refusal(f"{what} must be a list, not {value!r:.60}")
+    return value
 
 
 def _index(value: object, what: str) -> int:

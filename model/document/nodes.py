@@ -14,10 +14,11 @@ from hashlib import blake2b
 from typing import Any, ClassVar, Self
 
 from . import fields
+from .colours import hex_colour
 from .errors import Refusal
-from .expression import Number, symbolic
+from .expression import Expression, Number, expressions_in, resolved, symbolic
 from .fields import FieldSpec
-from .placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
+from .placement import Placement, Reflect, Step, affine, moved, scaled, turned
 
 KINDS: dict[str, type[Node]] = {}
 _ALPHABET = "abcdefghijkmnpqrstuvwxyz23456789"
@@ -63,9 +64,18 @@ class Node:
     def __post_init__(self) -> None:
         if not isinstance(self.placement, Placement):
             raise Refusal(f"{self.title}: a placement is needed, not {self.placement!r:.60}")
+        if not (isinstance(self.id, str) and isinstance(self.name, str) and isinstance(self.note, str)):
+            raise Refusal(f"{self.title}: id, name and note must be text")
+        if not isinstance(self.visible, bool):
+            raise Refusal(f"{self.title}: visible must be true or false, not {self.visible!r:.60}")
+        if self.colour is not None:
+            _set(self, "colour", hex_colour(self.colour))
         children = self.children
         if type(children) is not tuple:
-            children = tuple(children)
+            try:
+                children = tuple(children)
+            except TypeError:
+                raise Refusal(f"{self.title} takes solids, not {children!r:.60}") from None
             _set(self, "children", children)
         fewest, most = self.operands
         if len(children) < fewest or (most is not None and len(children) > most):
@@ -114,6 +124,12 @@ class Node:
         """The geometric fields by name."""
         return {spec.name: getattr(self, spec.name) for spec in field_specs(type(self))}
 
+    def expressions(self) -> list[Expression]:
+        """The expressions in its own fields and its placement."""
+        if not self.symbolic:
+            return []
+        return list(expressions_in([*self.values().values(), *(step.numbers for step in self.placement.steps)]))
+
     @property
     def label(self) -> str:
         """The name, or the kind where there is none."""
@@ -136,16 +152,15 @@ class Node:
 
     def at(self, x: Number | str = 0, y: Number | str = 0, z: Number | str = 0) -> Self:
         """Moved by x, y, z millimetres."""
-        return self._placed(Move((x, y, z)))  # type: ignore[arg-type]
+        return self._placed(moved(x, y, z))
 
     def turned(self, x: Number | str = 0, y: Number | str = 0, z: Number | str = 0) -> Self:
         """Turned about the world's axes through the origin: x degrees about x, then y about y, then z about z."""
-        return self._placed(Turn((x, y, z)))  # type: ignore[arg-type]
+        return self._placed(turned(x, y, z))
 
     def scaled(self, x: Number | str = 1, y: Number | str | None = None, z: Number | str | None = None) -> Self:
         """Scaled about the origin by a factor, or by one for each axis."""
-        even = y is None and z is None
-        return self._placed(Scale((x, x if even else 1.0 if y is None else y, x if even else 1.0 if z is None else z)))  # type: ignore[arg-type]
+        return self._placed(scaled(x, y, z))
 
     def mirrored(self, normal: tuple[Number, ...] = (1, 0, 0)) -> Self:
         """Reflected in the plane through the origin with this normal."""
@@ -153,8 +168,11 @@ class Node:
 
     def transformed(self, matrix: Any) -> Self:
         """Mapped by a (3, 4) or (4, 4) affine matrix."""
-        rows = [list(row) for row in matrix][:3]
-        return self._placed(Affine(tuple(value for row in rows for value in row)))
+        return self._placed(affine(matrix))
+
+    def placed(self, *steps: Step) -> Self:
+        """With these placement steps instead of its own."""
+        return self.with_(placement=Placement(steps))
 
     def named(self, name: str) -> Self:
         """With this name in the tree."""
@@ -162,9 +180,7 @@ class Node:
 
     def coloured(self, colour: str) -> Self:
         """With this colour, `#rrggbb` or a CSS colour's name; it stays on the faces of every result."""
-        from .colours import hex_colour
-
-        return self.with_(colour=hex_colour(colour))
+        return self.with_(colour=colour)
 
     def noted(self, note: str) -> Self:
         """With a note to the reader."""
@@ -175,7 +191,8 @@ class Node:
         return self.with_(visible=False)
 
     def _placed(self, step: Step) -> Self:
-        return self.with_(placement=self.placement.then(step))
+        placement = self.placement.then(step)
+        return self if placement is self.placement else self.with_(placement=placement)
 
 
 _SPECS: dict[type[Node], tuple[FieldSpec, ...]] = {}
@@ -300,7 +317,5 @@ def range_fault(node: Node) -> str | None:
 
 def resolve_fields(node: Node, values: Mapping[str, float], children: tuple[Node, ...]) -> Node:
     """`node` with its own expressions replaced by numbers, over resolved children. Raises Refusal."""
-    from .expression import resolved
-
     changes = {name: resolved(value, values) for name, value in node.values().items()}
     return node.with_(placement=node.placement.resolve(values), children=children, **changes)

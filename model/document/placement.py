@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +29,10 @@ class Step:
         """(3, 4); the numbers must be resolved."""
         raise AssertionError(self.word)
 
+    def inverse(self) -> tuple[Step, ...]:
+        """The steps that take this one back; expressions stay expressions. Raises Refusal for one that flattens."""
+        raise AssertionError(self.word)
+
 
 @dataclass(frozen=True, slots=True)
 class Move(Step):
@@ -38,6 +42,9 @@ class Move(Step):
 
     def matrix(self) -> NDArray[np.float64]:
         return np.column_stack((np.eye(3), np.array(self.numbers, dtype=np.float64)))
+
+    def inverse(self) -> tuple[Step, ...]:
+        return (Move(tuple(-number for number in self.numbers)),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +57,11 @@ class Turn(Step):
         x, y, z = (axis_turn(axis, float(angle)) for axis, angle in enumerate(self.numbers))  # type: ignore[arg-type]
         return np.column_stack((z @ y @ x, np.zeros(3)))
 
+    def inverse(self) -> tuple[Step, ...]:
+        x, y, z = (-number for number in self.numbers)
+        single = (Turn((0.0, 0.0, z)), Turn((0.0, y, 0.0)), Turn((x, 0.0, 0.0)))
+        return tuple(turn for turn in single if turn.numbers != (0.0, 0.0, 0.0))
+
 
 @dataclass(frozen=True, slots=True)
 class Scale(Step):
@@ -59,6 +71,11 @@ class Scale(Step):
 
     def matrix(self) -> NDArray[np.float64]:
         return np.column_stack((np.diag(np.array(self.numbers, dtype=np.float64)), np.zeros(3)))
+
+    def inverse(self) -> tuple[Step, ...]:
+        if 0.0 in self.numbers:
+            raise Refusal("a scale factor is 0: the solid would be flat")
+        return (Scale(tuple(1.0 / number for number in self.numbers)),)
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +88,9 @@ class Reflect(Step):
         normal = unit(self.numbers, "the mirror's normal")
         return np.column_stack((np.eye(3) - 2 * np.outer(normal, normal), np.zeros(3)))
 
+    def inverse(self) -> tuple[Step, ...]:
+        return (self,)
+
 
 @dataclass(frozen=True, slots=True)
 class Affine(Step):
@@ -81,6 +101,40 @@ class Affine(Step):
 
     def matrix(self) -> NDArray[np.float64]:
         return np.array(self.numbers, dtype=np.float64).reshape(3, 4)
+
+    def inverse(self) -> tuple[Step, ...]:
+        if symbolic(self.numbers):
+            raise Refusal("a matrix of expressions cannot be taken back")
+        return (Affine(tuple(inverse(self.matrix()).ravel())),)
+
+
+def moved(x: Any = 0, y: Any = 0, z: Any = 0) -> Move:
+    """A move by x, y, z millimetres."""
+    return Move((x, y, z))
+
+
+def turned(x: Any = 0, y: Any = 0, z: Any = 0) -> Turn:
+    """A turn by x degrees about x, then y about y, then z about z."""
+    return Turn((x, y, z))
+
+
+def scaled(x: Any = 1, y: Any = None, z: Any = None) -> Scale:
+    """A scaling by one factor, or by one for each axis."""
+    rest = x if y is None and z is None else 1.0
+    return Scale((x, rest if y is None else y, rest if z is None else z))
+
+
+def affine(matrix: Any) -> Affine:
+    """A map by a (3, 4) matrix, or a (4, 4) one whose last row is 0, 0, 0, 1. Raises Refusal."""
+    try:
+        rows = [list(row) for row in matrix]
+    except TypeError:
+        rows = []
+    if len(rows) not in (3, 4) or any(len(row) != 4 for row in rows):
+        raise Refusal("a matrix of 3 rows of 4 numbers is needed")
+    if len(rows) == 4 and vector(rows[3], "a matrix's last row", 4) != (0.0, 0.0, 0.0, 1.0):
+        raise Refusal("the last row of a (4, 4) matrix must be 0, 0, 0, 1")
+    return Affine(tuple(value for row in rows[:3] for value in row))
 
 
 STEPS: dict[str, type[Step]] = {step.word: step for step in (Move, Turn, Scale, Reflect, Affine)}
@@ -97,7 +151,9 @@ class Placement:
             raise Refusal("a placement is a tuple of moves, turns, scalings and mirrorings")
 
     def then(self, step: Step) -> Placement:
-        """This placement followed by `step`; two moves in a row become one."""
+        """This placement followed by `step`; two moves in a row become one, and a move by nothing is none."""
+        if isinstance(step, Move) and step.numbers == (0.0, 0.0, 0.0):
+            return self
         if self.steps and isinstance(step, Move) and isinstance(self.steps[-1], Move):
             last = self.steps[-1]
             if not symbolic(step.numbers) and not symbolic(last.numbers):
@@ -149,10 +205,11 @@ def product(outer: NDArray[np.float64], inner: NDArray[np.float64]) -> NDArray[n
 
 def inverse(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     """The (3, 4) inverse. Raises Refusal for a map that flattens."""
-    if abs(np.linalg.det(matrix[:, :3])) < 1e-300:
-        raise Refusal("a scale factor is 0: the solid would be flat")
-    linear = np.linalg.inv(matrix[:, :3])
-    return np.column_stack((linear, -linear @ matrix[:, 3]))
+    with np.errstate(all="ignore"):
+        if abs(np.linalg.det(matrix[:, :3])) < 1e-300:
+            raise Refusal("a scale factor is 0: the solid would be flat")
+        linear = np.asarray(np.linalg.inv(matrix[:, :3]), dtype=np.float64)
+        return np.column_stack((linear, -linear @ matrix[:, 3]))
 
 
 def axis_turn(axis: int, degrees: float) -> NDArray[np.float64]:

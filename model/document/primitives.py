@@ -116,10 +116,11 @@ class Circle(Node):
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
 class Polygon(Node):
-    """A closed outline of straight sides; it is filled where its winding is not even."""
+    """A closed outline of straight sides, with holes; it is filled where an odd number of loops goes round."""
 
     title: ClassVar[str] = "Polygon"
     points: tuple[tuple[Number, ...], ...] = fields.points("Points", flat=True)
+    loops: tuple[tuple[int, ...], ...] = fields.faces("Loops", "Each the indices of its points; none: all in one loop")
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)

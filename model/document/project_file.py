@@ -14,7 +14,7 @@ from typing import Any, BinaryIO
 
 from .archive import allowance, member, members_of, open_archive, unpacked
 from .assets import AssetStore, assets_of, default_store, is_sha
-from .disk import reason_of, replace_file
+from .disk import one_line, reason_of, replace_file
 from .document import Document
 from .errors import Refusal
 from .primitives import ImportedMesh
@@ -139,7 +139,7 @@ def from_json(data: bytes) -> Document:
     try:
         return from_table(_migrated(table))
     except Refusal as refusal:
-        raise Refusal(f"{DOCUMENT}: {refusal}") from None
+        raise Refusal(one_line(f"{DOCUMENT}: {refusal}")) from None
 
 
 def _object(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

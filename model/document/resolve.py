@@ -23,22 +23,22 @@ class Resolved:
 class Resolver:
     """Resolves documents one after another and remembers what it made, so that equal input gives identical nodes.
 
-    A node is remembered for the values of the parameters at that time; a parameter's change forgets them all.
+    Where another value of a parameter leaves a node's own numbers and all below as they were, it stays the same node.
     """
 
     def __init__(self) -> None:
         self._values: dict[str, float] = {}
+        self._faults: dict[str, str] = {}
         self._made: dict[int, tuple[Node, Node]] = {}
         self._definitions: tuple[Node, ...] = ()
 
     def resolve(self, document: Document) -> Resolved:
         values, faults = parameter_values(document.parameters)
-        if values != self._values or document.definitions is not self._definitions:
-            self._made = {}
-        self._values, self._definitions = values, document.definitions
+        same = (values, faults) == (self._values, self._faults) and document.definitions is self._definitions
+        self._values, self._faults, self._definitions = values, faults, document.definitions
         definitions = {node.id: node for node in document.definitions}
         before, self._made = self._made, {}
-        solids = tuple(self._node(root, values, faults, definitions, before) for root in document.solids)
+        solids = tuple(self._node(root, values, faults, definitions, before, same) for root in document.solids)
         return Resolved(solids, values, faults)
 
     def _node(
@@ -48,6 +48,7 @@ class Resolver:
         faults: Mapping[str, str],
         definitions: Mapping[str, Node],
         before: dict[int, tuple[Node, Node]],
+        same: bool,
     ) -> Node:
         # An explicit stack: (node, whether its children are done); `open_` holds the definitions being filled in.
         made = self._made
@@ -62,7 +63,8 @@ class Resolver:
                 made[key] = (node, node)
                 continue
             old = before.get(key)
-            if old is not None and old[0] is node:
+            old = old if old is not None and old[0] is node else None
+            if same and old is not None:
                 made[key] = old
                 continue
             definition = definitions.get(node.definition) if isinstance(node, Instance) else None
@@ -80,7 +82,8 @@ class Resolver:
                 children = (made[id(definition)][1],)
             else:
                 children = tuple(made[id(child)][1] for child in node.children)
-            made[key] = (node, _resolved(node, values, faults, children, definition is None))
+            new = _resolved(node, values, faults, children, definition is None)
+            made[key] = old if old is not None and _alike(old[1], new) else (node, new)
         return made[id(root)][1]
 
 
@@ -92,8 +95,16 @@ def _resolved(
     try:
         return resolve_fields(node, values, children)
     except Refusal as refusal:
-        wrong = next((fault for name, fault in faults.items() if f" {name}" in str(refusal)), None)
+        asked = [name for expression in node.expressions() for name in sorted(expression.names())]
+        wrong = next((faults[name] for name in asked if name in faults), None)
         return _broken(node, wrong or str(refusal), children)
+
+
+def _alike(old: Node, new: Node) -> bool:
+    """Whether two results for one node are the same, its operands by identity."""
+    if old.digest != new.digest or len(old.children) != len(new.children):
+        return False
+    return all(a is b for a, b in zip(old.children, new.children, strict=True))
 
 
 def _broken(node: Node, message: str, children: tuple[Node, ...] = ()) -> Broken:

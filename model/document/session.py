@@ -40,6 +40,8 @@ class Session:
     """
 
     def __init__(self, document: Document | None = None, depth: int = DEPTH) -> None:
+        if depth < 1:
+            raise ValueError(f"a history keeps one step or more, not {depth}")
         self._state = State(document or Document())
         self._depth = depth
         self._past: list[Done] = []
@@ -99,7 +101,7 @@ class Session:
             raise Refusal(f"there is no operation called {name}")
         before = self._state.document
         after = OPERATIONS[name](before, *arguments, **keywords)
-        line = echo.call(name, *arguments, **keywords)
+        line = echo.step(before, after, name, *arguments, **keywords)
         self.commit(label or name.replace("_", " ").capitalize(), after, select, line)
         return after
 
@@ -111,11 +113,11 @@ class Session:
         self._shown = None
         if new is self._state.document:
             if select is not None:
-                self.select(select)
-            if shown.document is not new:
+                self._state = State(new, _held(new, select))
+            if shown.document is not new or shown.selection != self._state.selection:
                 self._tell(shown)
             return
-        chosen = self._after(new) if select is None else tuple(select)
+        chosen = self._after(new) if select is None else _held(new, select)
         done = Done(label, self._state, State(new, chosen))
         self._past.append(done)
         del self._past[: -self._depth]
@@ -127,18 +129,17 @@ class Session:
 
     def _after(self, new: Document) -> tuple[str, ...]:
         """New top nodes where there are any, else the selection as far as it still exists."""
-        old_ids = {node.id for node in walk(*self._state.document.roots)}
+        old = {node.id: node for node in walk(*self._state.document.roots)}
         stack = list(reversed(new.roots))
         fresh: list[str] = []
-        known: set[str] = set()
         while stack:
             node = stack.pop()
-            known.add(node.id)
-            if node.id not in old_ids:
+            known = old.get(node.id)
+            if known is None:
                 fresh.append(node.id)
-                continue
-            stack += reversed(node.children)
-        return tuple(fresh) or tuple(i for i in self._state.selection if i in known)
+            elif type(known) is type(node):  # what an unlinked instance has become is not new below
+                stack += reversed(node.children)
+        return tuple(fresh) or _held(new, self._state.selection)
 
     def preview(self, document: Document) -> None:
         """Show a document without a step in the history, as a drag does on its way."""
@@ -179,10 +180,7 @@ class Session:
 
     def select(self, ids: Iterable[str]) -> None:
         """Select these nodes; ids that the document does not hold are left out."""
-        wanted = tuple(dict.fromkeys(ids))
-        if wanted:
-            known = {node.id for node in walk(*self.document.roots)}
-            wanted = tuple(i for i in wanted if i in known)
+        wanted = _held(self.document, ids)
         if wanted == self._state.selection:
             return
         before = self.state
@@ -207,3 +205,10 @@ class Session:
         after = self.state
         for listener in tuple(self._listeners):
             listener(before, after)
+
+
+def _held(document: Document, ids: Iterable[str]) -> tuple[str, ...]:
+    """The ids without doubles that the document holds."""
+    wanted = dict.fromkeys(ids)
+    known = {node.id for node in walk(*document.roots)} if wanted else set()
+    return tuple(node_id for node_id in wanted if node_id in known)

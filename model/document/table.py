@@ -12,11 +12,11 @@ from .colours import hex_colour
 from .document import Document, Parameter
 from .errors import Refusal
 from .expression import Expression, Number
-from .nodes import KINDS, Broken, Node, field_specs
+from .nodes import KINDS, Broken, Instance, Node, field_specs
 from .placement import STEPS, Placement
-from .tree import MAX_NODES
+from .tree import FAMILIES, MAX_NODES, walk
 
-FAMILIES = ("solids", "profiles", "definitions")
+MAX_ID = 100
 _DEFAULTS: dict[type[Node], dict[str, Any]] = {}
 assert _primitives
 
@@ -102,6 +102,9 @@ def from_table(table: Mapping[str, Any], reuse: Reuse | None = None) -> Document
         for root in roots[family]:
             _claim(owner, root, f"“{family}”")
             _build(root, rows, made, owner, reuse)
+    if reuse is not None:
+        for gone in reuse.keys() - made.keys():
+            del reuse[gone]
     parameters = _expect(table.get("parameters", []), list, "“parameters”")
     return Document(
         **{family: tuple(made[root] for root in roots[family]) for family in FAMILIES},
@@ -149,12 +152,17 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
     if kind is None or kind in (Node, Broken):
         raise Refusal(f"node {node_id} is of an unknown kind, {name!r:.60}")
     specs = {spec.name: spec for spec in field_specs(kind)}
+    if kind is Instance and children:
+        raise Refusal(f"node {node_id}: an instance holds no operands")
     known = {"kind", "name", "colour", "visible", "note", "placement", "children", *specs}
     try:
         extra = sorted(set(row) - known)
         if extra:
             raise Refusal(f"{kind.title} has no field {extra[0]!r:.60}")
-        changes: dict[str, Any] = {name: _value(row[name]) for name in specs if name in row}
+        changes: dict[str, Any] = {}
+        for name, spec in specs.items():
+            if name in row:
+                changes[name] = row[name] if spec.type == "text" else _value(row[name])
         for name, wanted in (("name", str), ("note", str), ("visible", bool)):
             if name in row:
                 changes[name] = _expect(row[name], wanted, f"“{name}”")
@@ -177,9 +185,11 @@ def _step(row: Any) -> Any:
     return STEPS[row[0]](tuple(_value(number) for number in row[1:]))
 
 
-def _value(value: Any) -> Any:
+def _value(value: Any, depth: int = 0) -> Any:
     if isinstance(value, list):
-        return tuple(_value(item) for item in value)
+        if depth == 2:
+            raise Refusal("a list stands too deep in other lists")
+        return tuple(_value(item, depth + 1) for item in value)
     if isinstance(value, str) and value.startswith("="):
         return Expression(value[1:])
     return value
@@ -197,13 +207,17 @@ def _parameter(row: Any) -> Parameter:
         row[text] = _expect(row.get(text, ""), str, f"a parameter's {text}")
     value: Number = _value(row.pop("value"))
     choices = _expect(row.pop("choices", []), list, f"the choices of {row['name']}")
-    return Parameter(value=value, choices=tuple(choices), **row)
+    try:
+        return Parameter(value=value, choices=tuple(choices), **row)
+    except (TypeError, ValueError):
+        raise Refusal(f"the parameter {row['name']!r:.60} has a field of the wrong form") from None
 
 
 def _ids(value: Any, what: str) -> list[str]:
     ids = _expect(value, list, what)
     for item in ids:
-        _expect(item, str, f"an id in {what}")
+        if len(_expect(item, str, f"an id in {what}")) > MAX_ID:
+            raise Refusal(f"an id in {what} has more than {MAX_ID} characters")
     return ids
 
 
@@ -220,8 +234,6 @@ def same_document(a: Document, b: Document) -> bool:
 
 
 def _anonymous(document: Document) -> Any:
-    from .tree import walk
-
     table = to_table(document)
     order = {node.id: f"#{i}" for i, node in enumerate(walk(*document.roots))}
     rows = {}

@@ -5,13 +5,15 @@ Places are told by ids, which are unique in a document. Nothing here recurses: t
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterable, Iterator
 
 from .document import Document
 from .errors import Refusal
-from .nodes import Node
+from .nodes import Instance, Node
 
 MAX_NODES = 1_000_000
+FAMILIES = ("solids", "profiles", "definitions")
 
 
 def walk(*roots: Node) -> Iterator[Node]:
@@ -57,7 +59,7 @@ def change(document: Document, node_id: str, function: Callable[[Node], Node | N
         return document
     for above, below in zip(reversed(nodes[:-1]), reversed(nodes[1:]), strict=True):
         new = above.with_(children=_swapped(above.children, below, new))
-    for family in ("solids", "profiles", "definitions"):
+    for family in FAMILIES:
         roots = getattr(document, family)
         if any(root is nodes[0] for root in roots):
             return document.with_(**{family: _swapped(roots, nodes[0], new)})
@@ -69,22 +71,122 @@ def _swapped(family: tuple[Node, ...], old: Node, new: Node | None) -> tuple[Nod
     return family[:place] + (() if new is None else (new,)) + family[place + 1 :]
 
 
-def insert(document: Document, node: Node, parent_id: str | None = None, index: int | None = None) -> Document:
-    """The document with `node` as a new solid, or as an operand of the parent, at `index` (None: last)."""
+def listed(ids: Iterable[str] | str) -> list[str]:
+    """Ids as operations take them: one or many, without doubles. Raises Refusal."""
+    try:
+        wanted = list(dict.fromkeys([ids] if isinstance(ids, str) else ids))
+    except TypeError:
+        raise Refusal(f"nodes are told by their ids, not {ids!r:.60}") from None
+    for item in wanted:
+        if not isinstance(item, str):
+            raise Refusal(f"a node is told by its id, not {item!r:.60}")
+    return wanted
 
-    def inserted(family: tuple[Node, ...]) -> tuple[Node, ...]:
-        place = len(family) if index is None else index
-        return (*family[:place], node, *family[place:])
+
+def outermost(document: Document, ids: Iterable[str] | str) -> list[str]:
+    """The ids without doubles and without those that lie below another of them, in the order given. Raises Refusal."""
+    wanted = listed(ids)
+    missing = dict.fromkeys(wanted)
+    outer: set[str] = set()
+    stack = [(root, False) for root in document.roots]
+    while stack:
+        node, inside = stack.pop()
+        if node.id in missing:
+            del missing[node.id]
+            if not inside:
+                outer.add(node.id)
+                inside = True
+        stack += [(child, inside) for child in node.children]
+    for node_id in missing:
+        raise Refusal(f"there is no node {node_id} in the document")
+    return [node_id for node_id in wanted if node_id in outer]
+
+
+def change_each(document: Document, ids: Iterable[str] | str, function: Callable[[Node], Node | None]) -> Document:
+    """Like `change` for many nodes, in one go, operands before what they stand in. Raises Refusal."""
+    wanted = set(listed(ids))
+    above: dict[str, str | None] = {root.id: None for root in document.roots}
+    for node in walk(*document.roots):
+        for child in node.children:
+            above[child.id] = node.id
+    touched: set[str] = set()
+    for node_id in wanted:
+        if node_id not in above:
+            raise Refusal(f"there is no node {node_id} in the document")
+        place: str | None = node_id
+        while place is not None and place not in touched:
+            touched.add(place)
+            place = above[place]
+    new: dict[str, Node | None] = {}
+    stack = [(root, False) for root in document.roots if root.id in touched]
+    while stack:
+        node, ready = stack.pop()
+        if not ready:
+            stack.append((node, True))
+            stack += [(child, False) for child in node.children if child.id in touched]
+            continue
+        made = _over(node, [new.get(child.id, child) for child in node.children])
+        new[node.id] = function(made) if node.id in wanted else made
+    changes: dict[str, tuple[Node, ...]] = {}
+    for family in FAMILIES:
+        roots = getattr(document, family)
+        kept = tuple(root for old in roots if (root := new.get(old.id, old)) is not None)
+        if len(kept) < len(roots) or any(a is not b for a, b in zip(kept, roots, strict=True)):
+            changes[family] = kept
+    return document.with_(**changes) if changes else document
+
+
+def _over(node: Node, children: list[Node | None]) -> Node:
+    kept = tuple(child for child in children if child is not None)
+    if len(kept) < len(children):
+        if len(kept) < type(node).operands[0]:
+            gone = next(old for old, new in zip(node.children, children, strict=True) if new is None)
+            raise Refusal(f"“{node.label}” cannot be without “{gone.label}”")
+    elif all(a is b for a, b in zip(kept, node.children, strict=True)):
+        return node
+    return node.with_(children=kept)
+
+
+def room(node: Node) -> int | None:
+    """How many operands more the node takes; None: any number."""
+    most = 0 if isinstance(node, Instance) else type(node).operands[1]
+    return None if most is None else max(most - len(node.children), 0)
+
+
+def put(document: Document, nodes: Iterable[Node], parent_id: str | None = None, index: int | None = None) -> Document:
+    """The document with the nodes as solids, or as operands of the parent, from `index` on (None: last).
+
+    Raises Refusal.
+    """
+    new = tuple(nodes)
+
+    def family(old: tuple[Node, ...]) -> tuple[Node, ...]:
+        place = position(old, index)
+        return (*old[:place], *new, *old[place:])
 
     if parent_id is None:
-        return document.with_(solids=inserted(document.solids))
+        return document.with_(solids=family(document.solids))
     above = find(document, parent_id)
-    most = type(above).operands[1]
-    if most is not None and len(above.children) >= most:
-        kind = type(above).title
-        raise Refusal(f"{kind} takes no further operand" if most else f"“{above.label}” is a {kind.lower()}: "
-                      "it holds no operands")  # fmt: skip
-    return change(document, parent_id, lambda above: above.with_(children=inserted(above.children)))
+    left, most = room(above), type(above).operands[1]
+    if left is not None and len(new) > left:
+        if isinstance(above, Instance) or not most:
+            raise Refusal(f"“{above.label}” holds no operands")
+        raise Refusal(f"“{above.label}” takes only {most} operand{'' if most == 1 else 's'}")
+    return change(document, parent_id, lambda node: node.with_(children=family(node.children)))
+
+
+def insert(document: Document, node: Node, parent_id: str | None = None, index: int | None = None) -> Document:
+    """`put` for one node."""
+    return put(document, (node,), parent_id, index)
+
+
+def position(family: tuple[Node, ...], index: int | None) -> int:
+    """`index` as a place among siblings; None: behind the last. Raises Refusal."""
+    if index is None:
+        return len(family)
+    if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index <= len(family):
+        raise Refusal(f"there is no place {index!r:.60}; places go from 0 to {len(family)}")
+    return index
 
 
 def index_of(document: Document, node_id: str) -> int:
@@ -99,6 +201,9 @@ def numbered(roots: Iterable[Node], first: int = 1) -> tuple[Node, ...]:
 
     Raises Refusal where the trees, written out, have more than a million nodes.
     """
+    roots = tuple(roots)
+    if _written_out(roots) > MAX_NODES:
+        raise Refusal(f"the tree has more than {MAX_NODES:,} nodes; use instances or arrays for what repeats")
     count = first - 1
     results: list[Node] = []
     for root in roots:
@@ -109,10 +214,6 @@ def numbered(roots: Iterable[Node], first: int = 1) -> tuple[Node, ...]:
             node, new_id = stack.pop()
             if new_id is None:
                 count += 1
-                if count - first >= MAX_NODES:
-                    raise Refusal(
-                        f"the tree has more than {MAX_NODES:,} nodes; use instances or arrays for what repeats"
-                    )
                 new_id = f"n{count}"
                 stack.append((node, new_id))
                 stack += [(child, None) for child in reversed(node.children)]
@@ -126,18 +227,34 @@ def numbered(roots: Iterable[Node], first: int = 1) -> tuple[Node, ...]:
     return tuple(results)
 
 
+def _written_out(roots: tuple[Node, ...]) -> int:
+    """How many nodes the trees have where a node that stands in several places counts at each of them."""
+    sizes: dict[int, int] = {}
+    stack = [(root, False) for root in roots]
+    while stack:
+        node, ready = stack.pop()
+        if id(node) in sizes:
+            continue
+        if ready:
+            sizes[id(node)] = 1 + sum(sizes[id(child)] for child in node.children)
+        else:
+            stack.append((node, True))
+            stack += [(child, False) for child in node.children]
+    return sum(sizes[id(root)] for root in roots)
+
+
 def next_number(document: Document) -> int:
     """The first number above those of all ids in the document."""
-    ids = (node.id[1:] for node in walk(*document.roots))
+    ids = (node.id[1:] for node in walk(*document.roots) if len(node.id) < 1000)
     return 1 + max((int(digits) for digits in ids if digits.isdecimal()), default=0)
 
 
 def unique_name(wanted: str, taken: Iterable[str]) -> str:
-    """`wanted`, or with the first number behind it that makes it unlike all that are taken."""
+    """`wanted`, or with the first number behind it that makes it unlike all that are taken: Box, Box 2, Box 3."""
     used = set(taken)
     if wanted not in used:
         return wanted
-    stem = wanted.rstrip("0123456789 ") or wanted
+    stem = re.sub(r" \d+$", "", wanted)
     number = 2
     while f"{stem} {number}" in used:
         number += 1

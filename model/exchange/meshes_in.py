@@ -12,7 +12,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 from ..document.assets import AssetStore, default_store
-from ..document.disk import read_whole, reason_of
+from ..document.disk import one_line, read_whole, reason_of
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.primitives import ImportedMesh
@@ -38,6 +38,7 @@ FORMATS: dict[str, tuple[str, Callable[[bytes], list[Part]]]] = {
     "gltf": ("glTF", read_gltf),
 }
 """By ending: what the format is called and what reads it."""
+UNFORESEEN = "is damaged in a way that this program did not foresee; save it again with the program that made it"
 _HEAD = 4096
 
 
@@ -57,14 +58,19 @@ def _read(data: bytes, file_format: str, fetch: Fetch | None = None) -> tuple[Pa
     if file_format not in FORMATS:
         raise Refusal(f"{file_format[:20]!r} is no format that can be read; known are {', '.join(FORMATS)}")
     title, reader = FORMATS[file_format]
-    if not data.strip(b"\0 \t\r\n"):
+    blank = b"\0 \t\r\n"
+    if not data[:_HEAD].strip(blank) and not data.strip(blank):
         raise Refusal(f"is empty, no {title} file")
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             parts = read_obj(data, fetch) if file_format == "obj" else reader(data)
+    except Refusal as refusal:
+        raise Refusal(one_line(str(refusal))) from None
     except MemoryError:
         raise Refusal("needs more memory to be read than there is") from None
+    except (ValueError, LookupError, TypeError, AttributeError, ArithmeticError, RecursionError):
+        raise Refusal(UNFORESEEN) from None
     if not any(len(part.triangles) for part in parts):
         raise Refusal(f"holds no triangles, so there is no solid in this {title} file")
     return tuple(part for part in parts if len(part.triangles))

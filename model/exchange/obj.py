@@ -141,7 +141,15 @@ def _corners(faces: _Rows, count: int) -> tuple[_Triangles, NDArray[np.int64]]:
         line = faces.line(int(np.searchsorted(ends, wrong[0], side="right")))
         raise Refusal(f"line {line:,}: the face asks for vertex {corners[wrong[0]]}; there are {count:,}")
     triangles = fan(whole, sizes)
-    return triangles, np.unique(triangles)
+    return triangles, _used(triangles, count)
+
+
+def _used(triangles: _Triangles, count: int) -> NDArray[np.int64]:
+    if 8 * triangles.size < count:  # of a part that is small beside the file
+        return np.unique(triangles)
+    used = np.zeros(count, dtype=bool)
+    used[triangles] = True
+    return np.flatnonzero(used)
 
 
 def _numbers(text: bytes, kind: type) -> NDArray | None:
@@ -154,10 +162,12 @@ def _numbers(text: bytes, kind: type) -> NDArray | None:
 def _part(name: str, meshes: Sequence[_Mesh], vertices: NDArray[np.float64], materials: dict[str, str]) -> Part:
     used = {material for rows, _, _ in meshes for material in rows.materials}
     colour = materials.get(used.pop()) if len(used) == 1 else None
-    own = np.unique(np.concatenate([chosen for _, _, chosen in meshes]))
+    own = meshes[0][2] if len(meshes) == 1 else np.unique(np.concatenate([chosen for _, _, chosen in meshes]))
     if colour is None and vertices.shape[1] == 6:
         colour = only_colour(vertices[own, 3:])
-    triangles = np.searchsorted(own, np.concatenate([triangles for _, triangles, _ in meshes]))
+    triangles = np.concatenate([triangles for _, triangles, _ in meshes])
+    if len(own) < len(vertices):
+        triangles = np.searchsorted(own, triangles)
     return make_part(name, colour, vertices[own, :3], triangles)
 
 

@@ -208,6 +208,6 @@ def only_colour(colours: Iterable[Sequence[float]]) -> str | None:
 
 def words_of(line: bytes) -> str:
     """The beginning of a line of a file, fit to be shown."""
-    text = line.strip().decode("utf-8", "replace")
+    text = line.strip().split(b"\n")[0].decode("utf-8", "replace").rstrip()
     shown = "".join(character if character.isprintable() else "·" for character in text[:40])
     return f"“{shown}{'…' if len(text) > 40 else ''}”"

@@ -23,13 +23,13 @@ _PIECE = 1 << 24
 def read_stl(data: bytes) -> list[Part]:
     """The file's one part; its name is that of a text file's only solid. Raises Refusal."""
     if is_binary(data):
-        rows = np.frombuffer(data, _TRIANGLE, offset=84)
+        rows = np.frombuffer(data, _TRIANGLE, int.from_bytes(data[80:84], "little"), 84)
         check_total(len(rows))
         return [make_part("", None, rows["corners"].reshape(-1, 3), None)]
     head = data[:1024].lstrip(b"\xef\xbb\xbf \t\r\n")
     if head[:5].lower() == b"solid" and b"\0" not in data[:84]:
         return [_from_text(data)]
-    if b"\0" not in head:
+    if len(re.findall(rb"[\t\r\n -~]", head)) > 0.9 * len(head):
         raise Refusal(f"is text, not STL: it begins with {words_of(head.splitlines()[0] if head else b'')}")
     if len(data) < 84:
         raise Refusal(f"is cut short: a binary STL has at least 84 bytes, this file has {len(data)}")

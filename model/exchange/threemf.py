@@ -21,7 +21,7 @@ from ..document.errors import Refusal
 from ..document.placement import product
 from .parts import MAX_PARTS, Part, check_parts, check_total, make_part, placed
 from .solids import OutSolid, lines, plain_name
-from .threemf_model import Model, parse_xml
+from .threemf_model import Model, XmlReader
 
 UNITS = {"micron": 0.001, "millimeter": 1.0, "centimeter": 10.0, "inch": 25.4, "foot": 304.8, "meter": 1000.0}
 MAX_UNPACKED = 2_000_000_000
@@ -47,6 +47,18 @@ class _Relation:
     kind: str
     target: str
     outside: bool
+
+
+class _Relations(XmlReader):
+    def __init__(self, name: str) -> None:
+        super().__init__(name)
+        self.relations: list[_Relation] = []
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        if tag.endswith(" Relationship"):
+            target = attributes.get("Target", "")
+            outside = attributes.get("TargetMode") == "External" or ":" in target
+            self.relations.append(_Relation(attributes.get("Type", ""), target.lstrip("/"), outside))
 
 
 class _Package:
@@ -83,17 +95,10 @@ class _Package:
         return parts
 
     def _relations(self, name: str) -> list[_Relation]:
-        found: list[_Relation] = []
-
-        def start(tag: str, attributes: dict[str, str], _line: int) -> None:
-            if tag.endswith(" Relationship"):
-                target = attributes.get("Target", "")
-                outside = attributes.get("TargetMode") == "External" or ":" in target
-                found.append(_Relation(attributes.get("Type", ""), target.lstrip("/"), outside))
-
+        found = _Relations(name)
         if name.lower() in self.members:
-            parse_xml(name, self._unpacked(name), start)
-        return found
+            found.read(self._unpacked(name))
+        return found.relations
 
     def _unpacked(self, name: str):
         info = self.members.get(name.lower())
@@ -106,8 +111,7 @@ class _Package:
     def _model(self, name: str) -> Model:
         name = name.lstrip("/")
         if name not in self.models:
-            self.models[name] = model = Model(name)
-            parse_xml(name, self._unpacked(name), model.start, model.end, model.namespace)
+            self.models[name] = model = Model(name).read(self._unpacked(name))
             if model.unit not in UNITS:
                 raise Refusal(f"{name}: {model.unit[:40]!r} is no unit; known are {', '.join(UNITS)}")
         return self.models[name]

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import NoReturn, Self
 from xml.parsers import expat
 
 import numpy as np
@@ -13,8 +14,6 @@ from ..document.colours import hex_colour
 from ..document.errors import Refusal
 from ..document.placement import IDENTITY
 from .parts import MAX_TRIANGLES
-
-Start = Callable[[str, dict[str, str], int], None]
 
 _BASE = "http://schemas.microsoft.com/3dmanufacturing/"
 MATERIAL = _BASE + "material/2015/02"
@@ -31,31 +30,40 @@ NEEDED = {
 }
 
 
-def parse_xml(
-    name: str,
-    chunks: Iterable[bytes],
-    start: Start,
-    end: Callable[[str], None] | None = None,
-    namespace: Callable[[str | None, str | None], None] | None = None,
-) -> None:
-    """Calls `start` with “namespace name”, attributes and line for each element. Raises Refusal."""
-    parser = expat.ParserCreate(namespace_separator=" ")
-    parser.buffer_text = True
+class XmlReader:
+    """Reads XML piece by piece; names come as “namespace name”. Document types, and so entities, are refused."""
 
-    def no_doctype(*_: object) -> None:
-        raise Refusal(f"{name}, line {parser.CurrentLineNumber}: a document type is not allowed here")
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self._parser = expat.ParserCreate(namespace_separator=" ")
 
-    parser.StartDoctypeDeclHandler = no_doctype
-    parser.StartElementHandler = lambda tag, attributes: start(tag, attributes, parser.CurrentLineNumber)
-    parser.EndElementHandler = end
-    parser.StartNamespaceDeclHandler = namespace
-    try:
-        for chunk in chunks:
-            parser.Parse(chunk)
-        parser.Parse(b"", True)
-    except expat.ExpatError as error:
-        what = expat.ErrorString(error.code)
-        raise Refusal(f"{name}, line {error.lineno}, column {error.offset + 1}: {what}") from None
+    def read(self, chunks: Iterable[bytes]) -> Self:
+        """Calls start, end and namespace for what the chunks hold. Raises Refusal."""
+        parser = self._parser
+        parser.StartDoctypeDeclHandler = lambda *_: self.refuse("a document type is not allowed here")
+        parser.StartElementHandler, parser.EndElementHandler = self.start, self.end
+        parser.StartNamespaceDeclHandler = self.namespace
+        try:
+            for chunk in chunks:
+                parser.Parse(chunk)
+            parser.Parse(b"", True)
+        except expat.ExpatError as error:
+            what = expat.ErrorString(error.code)
+            raise Refusal(f"{self.name}, line {error.lineno}, column {error.offset + 1}: {what}") from None
+        return self
+
+    @property
+    def line(self) -> int:
+        return self._parser.CurrentLineNumber
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None: ...
+
+    def end(self, tag: str) -> None: ...
+
+    def namespace(self, prefix: str | None, uri: str | None) -> None: ...
+
+    def refuse(self, what: str, line: int = 0) -> NoReturn:
+        raise Refusal(f"{self.name}, line {line or self.line}: {what}")
 
 
 @dataclass
@@ -82,11 +90,11 @@ class Thing:
     note: str = ""
 
 
-class Model:
+class Model(XmlReader):
     """One model file as it is read."""
 
     def __init__(self, name: str) -> None:
-        self.name = name
+        super().__init__(name)
         self.unit = "millimeter"
         self.objects: dict[int, Thing] = {}
         self.items: list[Reference] | None = None
@@ -94,7 +102,7 @@ class Model:
         self._kinds: dict[int, str] = {}
         self._colours: dict[int, list[str | None]] = {}
         self._prefixes: dict[str, str] = {}
-        self._core = ""
+        self._core = self._vertex = self._triangle = ""
         self._open: list[str] = []
         self._group: list[str | None] = []
         self._thing: Thing | None = None
@@ -106,98 +114,97 @@ class Model:
     def namespace(self, prefix: str | None, uri: str | None) -> None:
         self._prefixes[prefix or ""] = uri or ""
 
-    def start(self, tag: str, attributes: dict[str, str], line: int) -> None:
-        space, _, word = tag.rpartition(" ")
-        if word == "vertex" and space == self._core:
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        if tag == self._vertex:
             try:
                 self._texts += (attributes["x"], attributes["y"], attributes["z"])
             except KeyError as missing:
-                self._refuse(line, f"a vertex has no {missing.args[0]}")
+                self.refuse(f"a vertex has no {missing.args[0]}")
             return
-        if word == "triangle" and space == self._core:
-            self._triangle(attributes, line)
+        if tag == self._triangle:
+            self._add_triangle(attributes)
             return
+        space, _, word = tag.rpartition(" ")
         self._open.append(word)
         if not self._core:
             if word != "model" or not space.startswith(_BASE):
-                self._refuse(line, f"its first element is <{word[:40]}>, not the <model> of 3MF")
-            self._core = space
-            self._root(attributes, line)
+                self.refuse(f"its first element is <{word[:40]}>, not the <model> of 3MF")
+            self._core, self._vertex, self._triangle = space, f"{space} vertex", f"{space} triangle"
+            self._root(attributes)
         elif space == self._core:
-            self._element(word, attributes, line)
+            self._element(word, attributes)
         elif space == MATERIAL:
-            self._material(word, attributes, line)
+            self._material(word, attributes)
         elif space == BEAMS and word == "beamlattice" and self._thing is not None:
             self._thing.note = "The file has a beam lattice here, which is not read."
 
-    def _root(self, attributes: dict[str, str], line: int) -> None:
+    def _root(self, attributes: dict[str, str]) -> None:
         self.unit = attributes.get("unit", "millimeter")
         for prefix in attributes.get("requiredextensions", "").split():
             uri = self._prefixes.get(prefix, prefix)
             if uri not in EXTENSIONS:
-                self._refuse(line, f"the file needs the extension {uri[:80]}, which is not read")
+                self.refuse(f"the file needs the extension {uri[:80]}, which is not read")
 
-    def _element(self, word: str, attributes: dict[str, str], line: int) -> None:
+    def _element(self, word: str, attributes: dict[str, str]) -> None:
         match word:
             case "resources":
                 self.resources = True
             case "build":
                 self.items = []
             case "metadata" if self._open[-2:-1] == ["model"] and not attributes.get("name"):
-                self._refuse(line, "a <metadata> has no name")
+                self.refuse("a <metadata> has no name")
             case "object":
-                number = self._identify(word, attributes, line)
+                number = self._identify(word, attributes)
                 kind = attributes.get("type", "model")
                 if kind not in TYPES:
-                    self._refuse(line, f"{kind[:40]!r} is no type of an object; known are {', '.join(TYPES)}")
-                self._thing = self.objects[number] = Thing(attributes.get("name", ""), line)
+                    self.refuse(f"{kind[:40]!r} is no type of an object; known are {', '.join(TYPES)}")
+                self._thing = self.objects[number] = Thing(attributes.get("name", ""), self.line)
                 self._paint = (attributes.get("pid", ""), attributes.get("pindex", "0"))
                 self._painted = set()
             case "component" if self._thing is not None:
-                self._thing.components.append(self._reference(attributes, line))
+                self._thing.components.append(self._reference(attributes))
             case "item" if self.items is not None:
-                self.items.append(self._reference(attributes, line))
+                self.items.append(self._reference(attributes))
             case "basematerials":
-                self._colours[self._identify(word, attributes, line)] = self._group = []
+                self._colours[self._identify(word, attributes)] = self._group = []
             case "base":
                 self._group.append(_colour(attributes.get("displaycolor", "")))
 
-    def _material(self, word: str, attributes: dict[str, str], line: int) -> None:
+    def _material(self, word: str, attributes: dict[str, str]) -> None:
         if word in ("colorgroup", *NEEDED):
-            number = self._identify(word, attributes, line)
+            number = self._identify(word, attributes)
             for needed in NEEDED.get(word, ()):
                 if not attributes.get(needed):
-                    self._refuse(line, f"a <{word}> has no {needed}")
+                    self.refuse(f"a <{word}> has no {needed}")
             if word == "colorgroup":
                 self._colours[number] = self._group = []
             for key, kind in (("texid", "texture2d"), ("matid", "basematerials"), ("pids", "")):
                 for other in attributes.get(key, "").split() if key in NEEDED.get(word, ()) else ():
-                    found = self._kinds.get(self._number(other, line))
+                    found = self._kinds.get(self._number(other))
                     if found is None or (kind and found != kind) or found == "multiproperties":
-                        self._refuse(
-                            line, f"the {key} {other[:20]} of a <{word}> names {found or 'no'} resource before it"
-                        )
+                        names = f"a {found}" if found else "no resource"
+                        self.refuse(f"the {key} {other[:20]} of a <{word}> names {names} before it")
         elif word == "color":
             self._group.append(_colour(attributes.get("color", "")))
 
-    def _triangle(self, attributes: dict[str, str], line: int) -> None:
+    def _add_triangle(self, attributes: dict[str, str]) -> None:
         try:
             self._corners += (attributes["v1"], attributes["v2"], attributes["v3"])
         except KeyError as missing:
-            self._refuse(line, f"a triangle has no {missing.args[0]}")
+            self.refuse(f"a triangle has no {missing.args[0]}")
         if len(attributes) > 3 and "p1" in attributes:
             group = attributes.get("pid", self._paint[0])
             self._painted.update((group, attributes[p]) for p in ("p1", "p2", "p3") if p in attributes)
         elif self._painted:
             self._painted.add(self._paint)
         if len(self._corners) > 3 * MAX_TRIANGLES or len(self._texts) > 9 * MAX_TRIANGLES:
-            self._refuse(line, f"the mesh is too large; up to {MAX_TRIANGLES:,} triangles are read")
+            self.refuse(f"the mesh is too large; up to {MAX_TRIANGLES:,} triangles are read")
 
     def end(self, tag: str) -> None:
-        space, _, word = tag.rpartition(" ")
-        if word in ("vertex", "triangle") and space == self._core:
+        if tag in (self._vertex, self._triangle):
             return
         self._open.pop()
+        space, _, word = tag.rpartition(" ")
         thing = self._thing
         if space != self._core or thing is None:
             return
@@ -225,35 +232,34 @@ class Model:
             values = np.zeros(0)
         if len(values) != len(texts):
             bad = next((text for text in texts if not _reads(text, kind)), "")
-            line = self._thing.line if self._thing else 1
-            self._refuse(line, f"the {what} of this object hold {bad[:40]!r}, which is no number")
+            self.refuse(
+                f"the {what} of this object hold {bad[:40]!r}, which is no number",
+                self._thing.line if self._thing else 0,
+            )
         return values.reshape(-1, 3)
 
-    def _reference(self, attributes: dict[str, str], line: int) -> Reference:
-        number = self._number(attributes.get("objectid", ""), line)
+    def _reference(self, attributes: dict[str, str]) -> Reference:
+        number = self._number(attributes.get("objectid", ""))
         matrix = IDENTITY
         if "transform" in attributes:
             words = attributes["transform"].split()
             if len(words) != 12 or not all(_reads(word, float) for word in words):
-                self._refuse(line, "a transform must be 12 numbers")
+                self.refuse("a transform must be 12 numbers")
             matrix = np.array([float(word) for word in words]).reshape(4, 3).T
         path = attributes.get(f"{PRODUCTION} path", "").lstrip("/")
-        return Reference(number, path, matrix, line, attributes.get("partnumber", ""))
+        return Reference(number, path, matrix, self.line, attributes.get("partnumber", ""))
 
-    def _identify(self, word: str, attributes: dict[str, str], line: int) -> int:
-        number = self._number(attributes.get("id", ""), line)
+    def _identify(self, word: str, attributes: dict[str, str]) -> int:
+        number = self._number(attributes.get("id", ""))
         if number in self._kinds:
-            self._refuse(line, f"the id {number} stands twice, at a <{self._kinds[number]}> and at a <{word}>")
+            self.refuse(f"the id {number} stands twice, at a <{self._kinds[number]}> and at a <{word}>")
         self._kinds[number] = word
         return number
 
-    def _number(self, text: str, line: int) -> int:
+    def _number(self, text: str) -> int:
         if not text.isdecimal() or not 0 < len(text) < 12:
-            self._refuse(line, f"{text[:40]!r} is no number of an object or another resource")
+            self.refuse(f"{text[:40]!r} is no number of an object or another resource")
         return int(text)
-
-    def _refuse(self, line: int, what: str) -> None:
-        raise Refusal(f"{self.name}, line {line}: {what}")
 
 
 def _reads(text: str, kind: type) -> bool:

@@ -13,18 +13,26 @@ from hashlib import blake2b
 import numpy as np
 from manifold3d import Manifold, OpType
 
-WIDE = 32
-GROUP = 16
+WIDE = 64
+GROUP = 32
 MANY = 48
 """From how many subtracted operands on a difference is remembered."""
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Operand:
     """A placed solid and the key of its value: equal keys are equal solids in equal places."""
 
     key: bytes
     solid: Manifold
+    _bounds: tuple[float, ...] | None = None
+
+    @property
+    def bounds(self) -> tuple[float, ...]:
+        """The least and the greatest x, y, z."""
+        if self._bounds is None:
+            self._bounds = self.solid.bounding_box()
+        return self._bounds
 
 
 def joint_key(word: str, keys: list[bytes]) -> bytes:
@@ -69,7 +77,7 @@ def forced(solid: Manifold) -> Manifold:
 class Cut:
     """The last difference with this first operand: its subtracted operands by key, and the result."""
 
-    tail: dict[bytes, Manifold]
+    tail: dict[bytes, Operand]
     result: Manifold
 
 
@@ -84,7 +92,7 @@ class Cuts:
         """`first` less all of `tail`."""
         if len(tail) < MANY:
             return first.solid - union_of(tail, remember)
-        wanted = {operand.key: operand.solid for operand in tail}
+        wanted = {operand.key: operand for operand in tail}
         last = self._last.pop(first.key, None)
         few = max(1, len(tail) // 16)
         result: Manifold | None = None
@@ -103,7 +111,7 @@ class Cuts:
     def _recut(
         self,
         first: Operand,
-        wanted: dict[bytes, Manifold],
+        wanted: dict[bytes, Operand],
         last: Cut,
         gone: list[bytes],
         new: list[bytes],
@@ -115,12 +123,12 @@ class Cuts:
         if gone:
             key = joint_key("less", [first.key, *sorted(stay)])
             base = remember(key, lambda: self._refilled(first, wanted, last, gone, stay, remember))
-        return forced(base - _union([wanted[key] for key in new])) if new else base
+        return forced(base - _union([wanted[key].solid for key in new])) if new else base
 
     def _refilled(
         self,
         first: Operand,
-        wanted: dict[bytes, Manifold],
+        wanted: dict[bytes, Operand],
         last: Cut,
         gone: list[bytes],
         stay: list[bytes],
@@ -133,22 +141,22 @@ class Cuts:
         """
         plugs = [last.tail[key] for key in gone]
         if _apart(plugs, [wanted[key] for key in stay]):
-            plug = first.solid ^ _union(plugs)
+            plug = first.solid ^ _union([operand.solid for operand in plugs])
             whole = last.result + plug
             expected = last.result.volume() + plug.volume()
             if abs(whole.volume() - expected) <= 1e-12 * abs(expected) + 1e-300:
                 return whole
-        return forced(first.solid - union_of([Operand(key, wanted[key]) for key in stay], remember))
+        return forced(first.solid - union_of([wanted[key] for key in stay], remember))
 
 
-def _apart(these: list[Manifold], others: list[Manifold]) -> bool:
+def _apart(these: list[Operand], others: list[Operand]) -> bool:
     """Whether the boxes of the first are clear of all boxes of the second."""
     if not others:
         return True
-    boxes = np.array([other.bounding_box() for other in others])
+    boxes = np.array([other.bounds for other in others])
     low, high = boxes[:, :3], boxes[:, 3:]
     for this in these:
-        box = np.array(this.bounding_box())
+        box = np.array(this.bounds)
         margin = 1e-6 * float(np.max(box[3:] - box[:3]))
         if ((low <= box[3:] + margin) & (high >= box[:3] - margin)).all(axis=1).any():
             return False

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from manifold3d import Mesh64
 from numpy.typing import NDArray
 
 from .provenance import Path
+
+if TYPE_CHECKING:
+    from manifold3d import Mesh64
 
 SMOOTH = np.cos(np.radians(35))
 """Facets that meet at less than this share a normal."""

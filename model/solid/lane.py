@@ -3,42 +3,21 @@
 from __future__ import annotations
 
 import contextlib
-import multiprocessing
 import threading
 import time
-from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
-from multiprocessing.connection import Connection, wait
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..document.document import Document
-from ..document.nodes import Node
-from ..document.resolve import Resolver
 from ..document.table import to_table
-from .display import DisplayMesh
-from .measure import Measures
-from .results import Message, relabelled
+from .process import serve
+from .shown import Message, Pictures, Shown
 from .tessellation import DEFAULT_TOLERANCE
-from .worker import serve, shown_key
 
-
-@dataclass(frozen=True, slots=True)
-class ShownSolid:
-    """What a picture shows of one root. Equal keys are the same picture; `mesh` is None where the solid failed."""
-
-    key: bytes
-    mesh: DisplayMesh | None
-    measures: Measures | None
-
-
-@dataclass(frozen=True, slots=True)
-class Shown:
-    """The visible solids by their root's id, and what there is to tell about nodes."""
-
-    solids: dict[str, ShownSolid]
-    problems: tuple[Message, ...]
+if TYPE_CHECKING:
+    from multiprocessing.connection import Connection
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,6 +72,9 @@ class Died:
     given_up: bool
 
 
+MOST_DEATHS = 3
+"""After so many deaths without a sign of life in between, no further worker is started unasked."""
+
 LaneMessage = Started | Progress | Evaluated | Exported | Cancelled | Died
 
 
@@ -117,20 +99,20 @@ class Lane:
     def __init__(self, on_message: Callable[[LaneMessage], None], store_folder: Path, kept: int = 512 << 20) -> None:
         self._tell = on_message
         self._store_folder = store_folder
-        self._context = multiprocessing.get_context("spawn")
         self._process: Any = None
         self._connection: Connection | None = None
-        self._bell, self._ring = self._context.Pipe(duplex=False)
+        self._bell: Connection | None = None
+        self._ring: Connection | None = None
         self._lock = threading.Lock()
         self._evaluation: _Job | None = None
         self._exports: list[_Job] = []
+        self._preparation: _Job | None = None
         self._cancelled = False
         self._closed = False
+        self._started = False
+        self._deaths = 0
         self._number = 0
-        self._resolver = Resolver()
-        self._limit = kept
-        self._kept: OrderedDict[bytes, tuple[ShownSolid, tuple[tuple[tuple[int, ...], Message], ...]]] = OrderedDict()
-        self._by_root: dict[str, ShownSolid] = {}
+        self._pictures = Pictures(kept)
         self._thread = threading.Thread(target=self._work, name="solidtree lane", daemon=True)
 
     @property
@@ -139,8 +121,11 @@ class Lane:
         return None if self._process is None else self._process.pid
 
     def start(self) -> None:
-        """Start the worker; returns at once."""
-        self._thread.start()
+        """Start the worker ahead of the first request, which else does; returns at once."""
+        with self._lock:
+            if not self._started and not self._closed:
+                self._started = True
+                self._thread.start()
 
     def evaluate(self, document: Document, tolerance: float = DEFAULT_TOLERANCE) -> int:
         """Ask for a document's pictures and measures; the result is the number that the answer will carry."""
@@ -162,12 +147,20 @@ class Lane:
         self._wake()
         return number
 
+    def prepare(self, document: Document, node_id: str, tolerance: float = DEFAULT_TOLERANCE) -> None:
+        """Get ready for changes of one operand, while nothing else is asked for: the rest is cut without it."""
+        with self._lock:
+            self._number += 1
+            self._preparation = _Job(self._number, "prepare", document, tolerance, solid=node_id)
+        self._wake()
+
     def cancel(self) -> None:
         """Give up what is being done: its process is ended and another started. What is shown stays."""
         with self._lock:
             self._cancelled = True
             self._evaluation = None
             self._exports.clear()
+            self._preparation = None
         self._wake()
 
     def close(self) -> None:
@@ -176,22 +169,31 @@ class Lane:
         self._wake()
         if self._thread.is_alive():
             self._thread.join()
-        self._bell.close()
-        self._ring.close()
+        for end in (self._bell, self._ring):
+            if end is not None:
+                end.close()
 
     def _wake(self) -> None:
-        with contextlib.suppress(OSError, ValueError):
-            self._ring.send(None)
+        if not self._closed:
+            self.start()
+        # Before there is a bell the thread has yet to look for its first request.
+        if self._ring is not None:
+            with contextlib.suppress(OSError, ValueError):
+                self._ring.send(None)
 
     # The lane's thread.
 
     def _work(self) -> None:
+        import multiprocessing  # late and here: a window that starts does not wait for it
+
+        self._context = multiprocessing.get_context("spawn")
+        self._bell, self._ring = self._context.Pipe(duplex=False)
         self._spawn()
         job: _Job | None = None
         while not self._closed:
             if job is None:
                 job = self._next()
-            if job is not None and job.tries == 0 and self._answered_from_kept(job):
+            if job is not None and job.tries == 0 and self._answered_from_pictures(job):
                 job = None
                 continue
             job = self._await(None if job is None else self._sent(job))
@@ -203,12 +205,28 @@ class Lane:
             if self._evaluation is not None:
                 job, self._evaluation = self._evaluation, None
                 return job
-            return self._exports.pop(0) if self._exports else None
+            if self._exports:
+                return self._exports.pop(0)
+            job, self._preparation = self._preparation, None
+            return job
+
+    def _answered_from_pictures(self, job: _Job) -> bool:
+        start = time.perf_counter()
+        if job.word != "evaluate" or not self._pictures.complete(job.document, job.tolerance):
+            return False
+        self._tell_shown(job, start, 0)
+        return True
+
+    def _tell_shown(self, job: _Job, start: float, evaluations: int) -> None:
+        shown = self._pictures.shown(job.document, job.tolerance)
+        self._tell(Evaluated(job.number, shown, time.perf_counter() - start, evaluations))
 
     def _sent(self, job: _Job) -> _Job:
         table = to_table(job.document)
         if job.word == "evaluate":
-            request: tuple[Any, ...] = ("evaluate", job.number, table, job.tolerance, set(self._kept))
+            request: tuple[Any, ...] = ("evaluate", job.number, table, job.tolerance, self._pictures.keys())
+        elif job.word == "prepare":
+            request = ("prepare", job.number, table, job.tolerance, job.solid)
         else:
             request = ("export", job.number, table, job.path, job.tolerance, job.solid)
         assert self._connection is not None
@@ -218,9 +236,11 @@ class Lane:
 
     def _await(self, job: _Job | None) -> _Job | None:
         """Until the job is answered (None), must be tried again (the job), or there is something to begin."""
+        from multiprocessing.connection import wait
+
         superseding = False
         while not self._closed:
-            assert self._connection is not None
+            assert self._connection is not None and self._bell is not None
             for ready in wait([self._connection, self._bell]):
                 if ready is self._bell:
                     self._bell.recv()
@@ -232,7 +252,7 @@ class Lane:
                         self._respawn()
                         self._tell(Cancelled(job.number))
                         return None
-                    if self._evaluation is not None and job.word == "evaluate" and not superseding:
+                    if self._evaluation is not None and job.word != "export" and not superseding:
                         superseding = True
                         with contextlib.suppress(OSError):
                             self._connection.send(("stop", 0))
@@ -245,11 +265,26 @@ class Lane:
                     return None
         return None
 
+    def _wait_for_a_request(self) -> None:
+        """A worker that cannot even start is not started again before somebody asks for something."""
+        assert self._bell is not None
+        while not self._closed and self._evaluation is None and not self._exports:
+            self._bell.recv()
+
     def _after_death(self, job: _Job | None) -> _Job | None:
         process = self._process
         process.join()
         reason = _reason(process.exitcode)
-        self._respawn()
+        self._deaths += 1
+        self._end()
+        if self._deaths >= MOST_DEATHS:
+            self._tell(Died(None if job is None else job.number, reason, True))
+            self._wait_for_a_request()
+            if not self._closed:
+                self._deaths = 0
+                self._spawn()
+            return None
+        self._spawn()
         if job is None:
             self._tell(Died(None, reason, False))
             return None
@@ -262,15 +297,16 @@ class Lane:
         """Whether the message ends the job."""
         match message:
             case ("started", pid):
+                self._deaths = 0
                 self._tell(Started(pid))
             case ("progress", number, done, total, label):
                 if job is not None and number == job.number:
                     self._tell(Progress(number, done, total, label))
-            case ("superseded", number):
+            case ("superseded" | "prepared", number):
                 return job is not None and number == job.number
             case ("evaluated", number, answers, seconds, evaluations) if job is not None and number == job.number:
-                self._keep(job, answers)
-                self._tell(Evaluated(number, self._shown(job), seconds, evaluations))
+                self._pictures.keep(job.document, answers)
+                self._tell_shown(job, time.perf_counter() - seconds, evaluations)
                 return True
             case ("exported", number, path) if job is not None and number == job.number:
                 self._tell(Exported(number, path, None))
@@ -278,61 +314,11 @@ class Lane:
             case ("refused", number, reason) if job is not None and number == job.number:
                 if job.word == "export":
                     self._tell(Exported(number, job.path, reason))
-                else:
+                elif job.word == "evaluate":
                     fault = Message("", "", reason, True)
                     self._tell(Evaluated(number, Shown({}, (fault,)), 0.0, 0))
                 return True
         return False
-
-    # Pictures kept by key.
-
-    def _roots(self, job: _Job) -> list[Node]:
-        return [root for root in self._resolver.resolve(job.document).solids if root.visible]
-
-    def _answered_from_kept(self, job: _Job) -> bool:
-        if job.word != "evaluate":
-            return False
-        start = time.perf_counter()
-        if any(shown_key(root, job.tolerance) not in self._kept for root in self._roots(job)):
-            return False
-        self._tell(Evaluated(job.number, self._shown(job), time.perf_counter() - start, 0))
-        return True
-
-    def _keep(self, job: _Job, answers: list[tuple[Any, ...]]) -> None:
-        for root, answer in zip(self._roots(job), answers, strict=True):
-            if len(answer) > 1:
-                key, mesh, measures, messages = answer
-                ways = _ways(root, {message.node_id for message in messages})
-                placed = tuple((ways.get(message.node_id, ()), message) for message in messages)
-                self._kept[key] = (ShownSolid(key, mesh, measures), placed)
-        held = sum(_bytes(solid) for solid, _ in self._kept.values())
-        current = {answer[0] for answer in answers}
-        for key in list(self._kept):
-            if held <= self._limit:
-                break
-            if key not in current:
-                held -= _bytes(self._kept.pop(key)[0])
-
-    def _shown(self, job: _Job) -> Shown:
-        """The document's pictures from what is kept, with the ids of this document."""
-        solids: dict[str, ShownSolid] = {}
-        problems: list[Message] = []
-        for root in self._roots(job):
-            key = shown_key(root, job.tolerance)
-            kept, placed = self._kept[key]
-            self._kept.move_to_end(key)
-            solid = self._by_root.get(root.id)
-            if solid is None or solid.key != key or not _same_ids(solid, root):
-                mesh = None if kept.mesh is None else relabelled(kept.mesh, root)
-                solid = kept if mesh is kept.mesh else ShownSolid(key, mesh, kept.measures)
-            solids[root.id] = solid
-            for way, message in placed:
-                node = root
-                for index in way:
-                    node = node.children[index]
-                problems.append(Message(node.id, node.label, message.message, message.error))
-        self._by_root = solids
-        return Shown(solids, tuple(problems))
 
     # The process.
 
@@ -363,27 +349,3 @@ def _reason(code: int | None) -> str:
     if code == -9:
         return "the worker was ended from outside, or ran out of memory"
     return f"the worker ended unexpectedly (status {code})"
-
-
-def _ways(root: Node, ids: set[str]) -> dict[str, tuple[int, ...]]:
-    """The way down to each of these nodes: the index of the operand at each level."""
-    found: dict[str, tuple[int, ...]] = {}
-    stack: list[tuple[Node, tuple[int, ...]]] = [(root, ())] if ids else []
-    while stack and len(found) < len(ids):
-        node, way = stack.pop()
-        if node.id in ids:
-            found.setdefault(node.id, way)
-        stack += [(child, (*way, i)) for i, child in enumerate(node.children)]
-    return found
-
-
-def _same_ids(solid: ShownSolid, root: Node) -> bool:
-    return solid.mesh is None or relabelled(solid.mesh, root) is solid.mesh
-
-
-def _bytes(solid: ShownSolid) -> int:
-    mesh = solid.mesh
-    if mesh is None:
-        return 100
-    arrays = (mesh.points, mesh.normals, mesh.triangles, mesh.owner, mesh.facet, mesh.edge_points, mesh.edges)
-    return sum(array.nbytes for array in arrays)

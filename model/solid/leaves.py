@@ -9,7 +9,7 @@ import math
 from functools import singledispatch
 
 import numpy as np
-from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64
+from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64, triangulate
 from numpy.typing import NDArray
 
 from ..document.nodes import Node
@@ -97,33 +97,47 @@ def solid_of_polyhedron(node: Polyhedron, tolerance: float) -> Manifold:
     for number, face in enumerate(node.faces):
         if len(face) < 3 or min(face) < 0 or max(face) >= len(points):
             raise NoSolid(f"Polyhedron: face {number} must name three or more of the points 0 to {len(points) - 1}")
-    sides = {len(face) for face in node.faces}
-    if sides == {3}:
-        triangles = np.array(node.faces, dtype=np.int64)
-        polygons = np.arange(len(triangles))
-    else:
-        pieces = [_triangulated(points, face) for face in node.faces]
-        triangles = np.concatenate(pieces)
-        polygons = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])
+    triangles, polygons = triangles_of_faces(points, node.faces)
     return closed_solid(points, triangles, polygons, "Polyhedron")
 
 
-def _triangulated(points: NDArray[np.float64], face: tuple[int, ...]) -> NDArray[np.int64]:
-    """(n, 3) triangles of one flat face, which may be concave."""
-    from manifold3d import triangulate
+def triangles_of_faces(
+    points: NDArray[np.float64], faces: tuple[tuple[int, ...], ...]
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """(m, 3) triangles of flat faces over `points` (n, 3), and (m,) the number of the face that each comes from.
 
-    corners = np.array(face, dtype=np.int64)
-    if len(corners) == 3:
-        return corners[None]
-    ring = points[corners]
-    # Newell's method: the normal of a polygon whose corners may be slightly out of plane.
-    normal = np.cross(ring, np.roll(ring, -1, axis=0)).sum(axis=0)
+    Convex faces become fans, all of one size at once; the others are left to manifold3d.
+    """
+    sizes = np.array([len(face) for face in faces])
+    triangles: list[NDArray[np.int64]] = []
+    numbers: list[NDArray[np.int64]] = []
+    for size in np.unique(sizes):
+        members = np.flatnonzero(sizes == size)
+        corners = np.array([faces[i] for i in members], dtype=np.int64)  # (f, size)
+        ring = points[corners]
+        side = np.roll(ring, -1, axis=1) - ring
+        # Newell's normal: that of a polygon whose corners may be slightly out of plane.
+        normal = np.cross(ring, np.roll(ring, -1, axis=1)).sum(axis=1)
+        turns = np.einsum("fij,fj->fi", np.cross(np.roll(side, 1, axis=1), side), normal)
+        fan = np.column_stack((np.zeros(size - 2, dtype=int), np.arange(1, size - 1), np.arange(2, size)))
+        convex = (turns >= -1e-9 * np.abs(turns).max(axis=1, keepdims=True)).all(axis=1) | (size == 3)
+        triangles.append(corners[convex][:, fan].reshape(-1, 3))
+        numbers.append(np.repeat(members[convex], size - 2))
+        for i in np.flatnonzero(~convex):
+            pieces = _triangulated(ring[i], normal[i])
+            triangles.append(corners[i][pieces])
+            numbers.append(np.full(len(pieces), members[i]))
+    return np.concatenate(triangles), np.concatenate(numbers)
+
+
+def _triangulated(ring: NDArray[np.float64], normal: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(m, 3) triangles over the corners of one flat face, which need not be convex."""
     drop = int(np.argmax(np.abs(normal)))
     flat = ring[:, [i for i in range(3) if i != drop]]
-    forward = (normal[drop] > 0) == (drop != 1)
-    order = np.arange(len(corners)) if forward else np.arange(len(corners))[::-1]
-    triangles = order[np.asarray(triangulate([flat[order]], 0.0), dtype=np.int64)]
-    return corners[triangles if forward else triangles[:, ::-1]]
+    if (normal[drop] > 0) == (drop != 1):
+        return np.asarray(triangulate([flat], 0.0), dtype=np.int64)
+    backwards = np.asarray(triangulate([flat[::-1]], 0.0), dtype=np.int64)
+    return len(ring) - 1 - backwards[:, ::-1]
 
 
 def closed_solid(
@@ -244,5 +258,9 @@ def section_of_circle(node: Circle, tolerance: float) -> CrossSection:
 def section_of_polygon(node: Polygon, tolerance: float) -> CrossSection:
     if len(node.points) < 3:
         raise NoSolid("Polygon: three or more points are needed")
-    contour = np.array(node.points, dtype=np.float64)
-    return _placed(CrossSection([contour], FillRule.EvenOdd), node.placement)
+    points = np.array(node.points, dtype=np.float64)
+    for number, loop in enumerate(node.loops):
+        if len(loop) < 3 or min(loop) < 0 or max(loop) >= len(points):
+            raise NoSolid(f"Polygon: loop {number} must name three or more of the points 0 to {len(points) - 1}")
+    contours = [points[list(loop)] for loop in node.loops] or [points]
+    return _placed(CrossSection(contours, FillRule.EvenOdd), node.placement)

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from manifold3d import Mesh64
 from numpy.typing import NDArray
 
 from ..document.nodes import Hull, LinearArray, Minkowski, Mirror, Node, PolarArray
@@ -18,6 +18,9 @@ from ..document.placement import IDENTITY, product
 from ..document.primitives import Extrude, Revolve
 from .copies import copies
 from .failure import NoSolid
+
+if TYPE_CHECKING:
+    from manifold3d import Mesh64
 
 Path = tuple[str | int, ...]
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from manifold3d import Manifold, Mesh64, OpType
@@ -15,20 +15,12 @@ from ..document.nodes import Node
 from ..document.primitives import ImportedMesh
 from ..document.resolve import Resolver
 from .display import DisplayMesh, display_mesh
-from .evaluate import Entry, Evaluator
+from .entry import Entry
+from .evaluate import Evaluator
 from .measure import Measures, measure
 from .provenance import occurrences, owners_of_runs
+from .shown import Message
 from .tessellation import DEFAULT_TOLERANCE
-
-
-@dataclass(frozen=True, slots=True)
-class Message:
-    """Something to tell about a node."""
-
-    node_id: str
-    name: str
-    message: str
-    error: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,9 +132,3 @@ def evaluate_document(
             entry = evaluator.evaluate(root, tolerance, progress)
             results.append(SolidResult(root, entry.solid, messages_of(root, entry)))
     return Evaluation(tuple(results), evaluator)
-
-
-def relabelled(mesh: DisplayMesh, root: Node) -> DisplayMesh:
-    """The mesh of an equal tree with the ids of this one."""
-    owners = tuple(occurrence.path for occurrence in occurrences(root))
-    return mesh if owners == mesh.owners else replace(mesh, owners=owners)

@@ -12,18 +12,21 @@ from pathlib import Path
 from typing import Any
 
 from ..document.errors import Refusal
-from ..document.nodes import Node
+from ..document.nodes import Difference, Node
 from ..document.resolve import Resolver
 from ..document.table import Reuse, from_table
-from .evaluate import Evaluator, Superseded
-from .results import Message, SolidResult, display_of, messages_of
+from ..document.tree import change, trail
+from .entry import Superseded
+from .evaluate import Evaluator
+from .results import SolidResult, display_of, messages_of
+from .shown import Message, shown_key
 
 INTERVAL = 0.1
 """Seconds between two reports of progress."""
 
 
-def serve(connection: Connection, store_folder: str) -> None:
-    """Answer requests until the other side is gone. The entry point of the process."""
+def work(connection: Connection, store_folder: str) -> None:
+    """Answer requests until the other side is gone."""
     _die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     from ..document.assets import use_store
@@ -87,6 +90,17 @@ class _Worker:
         result = SolidResult(root, entry.solid, messages_of(root, entry))
         return display_of(root, entry.solid, self._evaluator), result.measures(), result.messages
 
+    def _prepare(self, number: int, table: dict[str, Any], tolerance: float, node_id: str) -> tuple[Any, ...]:
+        """Evaluate the solid without one operand, so that what it is cut from is at hand when it moves."""
+        document = from_table(table, self._reuse)
+        above = trail(document, node_id)[:-1]
+        if any(isinstance(node, Difference) for node in above):
+            without = change(document, node_id, lambda node: None)
+            place = next(i for i, root in enumerate(without.solids) if root.id == above[0].id)
+            root = self._resolver.resolve(without).solids[place]
+            self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, _size(root)))
+        return "prepared", number
+
     def _export(
         self, number: int, table: dict[str, Any], path: str, tolerance: float, solid: str | None
     ) -> tuple[Any, ...]:
@@ -103,11 +117,6 @@ def _size(root: Node) -> int:
         count += 1
         stack += stack.pop().children
     return count
-
-
-def shown_key(root: Node, tolerance: float) -> bytes:
-    """What a shown solid is kept under: its value, in place, at a tolerance."""
-    return root.digest + f"{tolerance!r}".encode()
 
 
 class _Progress:

@@ -1,0 +1,57 @@
+"""From nodes to what they look like in a picture: paths of their occurrences, their colours, the box around them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..model.document.document import Document
+from ..model.document.nodes import Node
+from ..model.document.tree import walk
+
+if TYPE_CHECKING:
+    from ..model.solid.display import DisplayMesh
+    from ..render.look import Paint
+
+Path = tuple[str | int, ...]
+
+
+def paths_through(ids: Iterable[str], owners: Iterable[Iterable[Path]]) -> set[Path]:
+    """The parts of the owners' paths that end at one of the nodes."""
+    wanted = set(ids)
+    if not wanted:
+        return set()
+    return {path[: i + 1] for paths in owners for path in paths for i, part in enumerate(path) if part in wanted}
+
+
+def selected_bounds(ids: Iterable[str], meshes: Iterable[DisplayMesh]) -> NDArray[np.float64] | None:
+    """The box (2, 3) around the faces that these nodes made, None where there are none."""
+    wanted = set(ids)
+    boxes = []
+    for mesh in meshes:
+        mine = np.array([bool(wanted.intersection(path)) for path in mesh.owners], bool)
+        faces = mesh.triangles[mine[mesh.owner]] if len(mine) else mesh.triangles[:0]
+        if len(faces):
+            points = mesh.points[np.unique(faces)]
+            boxes.append((points.min(axis=0), points.max(axis=0)))
+    if not boxes:
+        return None
+    lower, upper = zip(*boxes, strict=True)
+    return np.array([np.min(lower, axis=0), np.max(upper, axis=0)], float)
+
+
+def paint_of(document: Document, root: Node, mesh: DisplayMesh) -> Paint:
+    """Each owner's colour: that of the lowest coloured node on its path below the root, the root's by default."""
+    from ..render.look import Paint
+
+    colours = {node.id: node.colour for node in walk(root, *document.definitions) if node.colour is not None}
+    if not colours:
+        return Paint()
+    owners = tuple(
+        next((colours[part] for part in reversed(path) if isinstance(part, str) and part in colours), None)
+        for path in mesh.owners
+    )
+    return Paint(root.colour, owners)

@@ -1,0 +1,214 @@
+"""The form of one node, made from the fields of its kind, and what several selected nodes share."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Any
+
+from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QMenu, QPlainTextEdit, QToolButton
+
+from ...model.document.fields import FieldSpec
+from ...model.document.nodes import Node, field_specs
+from ...model.document.placement import Affine, Move, Reflect, Scale, Step, Turn
+from ...model.document.tree import find, walk
+from ..icons import icon, kind_icon
+from .colour_field import ColourField
+from .form import Form
+from .number_field import LENGTH, STEPS, Steps
+from .property_edit import field_edit, position_edit, step_edit, with_step
+from .text_line import TextLine
+
+STEP_KINDS: tuple[tuple[str, str, Step], ...] = (
+    ("Turn", "Degrees about x, then y, then z", Turn((0.0, 0.0, 0.0))),
+    ("Scale", "Factors along x, y and z", Scale((1.0, 1.0, 1.0))),
+    ("Mirror", "The normal of the mirror's plane through the origin", Reflect((1.0, 0.0, 0.0))),
+    ("Matrix", "A (3, 4) affine matrix, row by row", Affine((1.0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0, 1.0, 0))),
+    ("Move", "Millimetres along x, y and z", Move((0.0, 0.0, 0.0))),
+)
+STEP_STEPS = {Turn: STEPS["angle"], Scale: STEPS["factor"], Move: LENGTH, Reflect: STEPS["direction"]}
+
+
+def extra_steps(node: Node) -> tuple[Step, ...]:
+    """The placement's steps without the move that is the position."""
+    steps = node.placement.steps
+    return steps[:-1] if steps and isinstance(steps[-1], Move) else steps
+
+
+class NodeForm(Form):
+    def build(self, node: Node) -> None:
+        """Name, fields, placement, look and note of one node."""
+        self._name(node)
+        specs = field_specs(type(node))
+        if specs:
+            self.heading(node.title)
+        for spec in specs:
+            self._field(node.id, spec)
+        self._placement(node)
+        self.build_look([node.id])
+        self._note(node.id)
+
+    def build_look(self, ids: list[str]) -> None:
+        """Visibility and colour, which all kinds of nodes have."""
+        self.heading("Look")
+        box = QCheckBox(self)
+        box.setObjectName("visible")
+        box.setAccessibleName("Visible")
+        box.clicked.connect(lambda on: self.do("set_visible", "Show" if on else "Hide", ids, bool(on)))
+        colour = ColourField(self.session, ids, self)
+        wanted = set(ids)
+
+        def refresh(node: Node, values: dict[str, float]) -> None:
+            nodes = [node] if len(ids) == 1 else [n for n in walk(*self.session.document.roots) if n.id in wanted]
+            shown = {n.visible for n in nodes}
+            box.setTristate(len(shown) > 1)
+            states = Qt.CheckState
+            whole = states.Checked if True in shown else states.Unchecked
+            box.setCheckState(states.PartiallyChecked if len(shown) > 1 else whole)
+            colour.set_colours({n.colour for n in nodes})
+
+        self.rows.append(refresh)
+        self.line("Visible", box, "Shown, or hidden and still part of what it stands in")
+        self.line("Colour", colour, "It stays on its faces in every result")
+
+    def _name(self, node: Node) -> None:
+        name = TextLine(parent=self)
+        name.setObjectName("name")
+        name.setPlaceholderText(node.title)
+        name.setAccessibleName("Name")
+        name.setToolTip("<b>Name</b>&nbsp;&nbsp;F2 in the tree")
+        picture = QLabel(self)
+        picture.setPixmap(kind_icon(type(node)).pixmap(20, 20))
+        picture.setToolTip(node.title)
+        line = QHBoxLayout()
+        line.setSpacing(8)
+        line.addWidget(picture)
+        line.addWidget(name, 1)
+        self.column.addLayout(line)
+
+        def rename() -> None:
+            if name.isModified():
+                name.setModified(False)
+                if not self.do("rename", "Rename", node.id, name.text()):
+                    name.setText(find(self.session.document, node.id).name)
+
+        def refresh(node: Node, values: dict[str, float]) -> None:
+            if not (name.hasFocus() and name.isModified()) and name.text() != node.name:
+                name.setText(node.name)
+
+        name.editingFinished.connect(rename)
+        self.rows.append(refresh)
+
+    def _field(self, node_id: str, spec: FieldSpec) -> None:
+        steps = STEPS.get(spec.type, LENGTH)
+        steps = Steps(steps.plain, steps.fine, steps.coarse, spec.minimum, spec.above)
+        if spec.dimension == 1:
+            edit = field_edit(self.session, node_id, spec)
+            self.number(spec.name, spec.label, spec.unit, steps, edit, lambda node: getattr(node, spec.name),
+                        tip=spec.tip, optional=spec.optional)  # fmt: skip
+        elif spec.dimension == 3:
+            for i, axis in enumerate("xyz"):
+                label = f"{spec.label} {axis}" if i == 0 else axis
+                edit = field_edit(self.session, node_id, spec, i)
+                self.number(f"{spec.name}_{axis}", label, spec.unit, steps, edit,
+                            lambda node, i=i: getattr(node, spec.name)[i], tip=spec.tip)  # fmt: skip
+        elif spec.type == "flag":
+            box = QCheckBox(self)
+            box.setObjectName(spec.name)
+            box.setAccessibleName(spec.label)
+            box.clicked.connect(
+                lambda on: self.do("set_field", f"Change {spec.label.lower()}", node_id, spec.name, bool(on))
+            )
+            self.rows.append(lambda node, values: box.setChecked(getattr(node, spec.name)))
+            self.line(spec.label, box, spec.tip)
+        else:
+            words = QLabel(self)
+            words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            self.rows.append(lambda node, values: words.setText(_summary(getattr(node, spec.name), spec)))
+            self.line(spec.label, words, spec.tip)
+
+    def _placement(self, node: Node) -> None:
+        more = QToolButton(self)
+        more.setObjectName("add_step")
+        more.setProperty("flat", True)
+        more.setIcon(icon("add"))
+        more.setToolTip("Add a turn, a scaling, a mirroring or a matrix")
+        more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        menu = QMenu(more)
+        menu.setToolTipsVisible(True)
+        for title, tip, step in STEP_KINDS:
+            action = menu.addAction(title, partial(self._add_step, node.id, step))
+            action.setToolTip(tip)
+        more.setMenu(menu)
+        self.heading("Placement", more)
+        for i, axis in enumerate("xyz"):
+            edit = position_edit(self.session, node.id, i)
+            self.number(f"position_{axis}", f"Position {axis}" if i == 0 else axis, "mm", LENGTH, edit,
+                        lambda node, i=i: node.placement.position[i], tip="Where it stands in its parent")  # fmt: skip
+        for place, step in enumerate(extra_steps(node)):
+            self._step(node.id, place, step)
+
+    def _step(self, node_id: str, place: int, step: Step) -> None:
+        word = next(title for title, _, example in STEP_KINDS if type(example) is type(step))
+        remove = QToolButton(self)
+        remove.setObjectName(f"remove_step_{place}")
+        remove.setProperty("flat", True)
+        remove.setIcon(icon("close"))
+        remove.setToolTip(f"Remove this {word.lower()}")
+        remove.clicked.connect(partial(self._remove_step, node_id, place))
+        words = QLabel(f"{place + 1}  {word}", self)
+        words.setProperty("muted", True)
+        words.setToolTip("Steps are applied in this order, the position last")
+        line = QHBoxLayout()
+        line.addWidget(words, 1)
+        line.addWidget(remove)
+        self.column.addLayout(line)
+        labels = "xyz" if step.length == 3 else [row + column for row in "xyz" for column in ("x", "y", "z", " move")]
+        steps = STEP_STEPS.get(type(step), STEPS["factor"])
+        unit = {Turn: "°", Move: "mm"}.get(type(step), "")
+        for i, label in enumerate(labels):
+            edit = step_edit(self.session, node_id, place, i)
+            self.number(f"step_{place}_{i}", f"{word} {label}" if i == 0 else label, unit, steps, edit,
+                        lambda node, i=i: node.placement.steps[place].numbers[i])  # fmt: skip
+
+    def _add_step(self, node_id: str, step: Step) -> None:
+        self.do("place", "Change placement", node_id, *with_step(find(self.session.document, node_id), step))
+
+    def _remove_step(self, node_id: str, place: int) -> None:
+        steps = find(self.session.document, node_id).placement.steps
+        self.do("place", "Change placement", node_id, *steps[:place], *steps[place + 1 :])
+
+    def _note(self, node_id: str) -> None:
+        note = QPlainTextEdit(self)
+        note.setObjectName("note")
+        note.setProperty("field", True)
+        note.setProperty("node", node_id)
+        note.setPlaceholderText("A note to the reader")
+        note.setAccessibleName("Note")
+        note.setTabChangesFocus(True)
+        note.document().setDocumentMargin(2)
+        note.installEventFilter(self)
+
+        def refresh(node: Node, values: dict[str, float]) -> None:
+            if not note.hasFocus() and note.toPlainText() != node.note:
+                note.setPlainText(node.note)
+                note.document().setModified(False)
+            lines = min(max(note.toPlainText().count("\n") + 1, -(-len(note.toPlainText()) // 22)), 6)
+            note.setFixedHeight(max(2, lines) * note.fontMetrics().lineSpacing() + 16)
+
+        self.rows.append(refresh)
+        self.line("Note", note)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        left = event.type() == QEvent.Type.FocusOut and not watched.signalsBlocked()
+        if left and isinstance(watched, QPlainTextEdit) and watched.document().isModified():
+            watched.document().setModified(False)
+            self.do("set_note", "Change note", watched.property("node"), watched.toPlainText())
+        return super().eventFilter(watched, event)
+
+
+def _summary(value: Any, spec: FieldSpec) -> str:
+    if spec.type in ("points", "faces"):
+        return f"{len(value)}"
+    text = str(value)
+    return text if len(text) <= 24 else text[:12] + "…"

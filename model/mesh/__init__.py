@@ -1,1 +1,0 @@
-"""Vertex, normal and face lists, and their repair. Imports nothing but `model`."""

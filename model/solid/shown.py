@@ -1,0 +1,142 @@
+"""What the window shows of evaluated solids, and the pictures it keeps: light to import, for a window that starts."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from ..document.document import Document
+from ..document.nodes import Node
+from ..document.resolve import Resolver
+from .display import DisplayMesh
+from .measure import Measures
+from .provenance import occurrences
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """Something to tell about a node."""
+
+    node_id: str
+    name: str
+    message: str
+    error: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ShownSolid:
+    """What a picture shows of one root. Equal keys are the same picture; `mesh` is None where the solid failed."""
+
+    key: bytes
+    mesh: DisplayMesh | None
+    measures: Measures | None
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """The visible solids by their root's id, and what there is to tell about nodes."""
+
+    solids: dict[str, ShownSolid]
+    problems: tuple[Message, ...]
+
+
+def shown_key(root: Node, tolerance: float) -> bytes:
+    """What a shown solid is kept under: its value, in place, at a tolerance."""
+    return root.digest + f"{tolerance!r}".encode()
+
+
+def relabelled(mesh: DisplayMesh, root: Node) -> DisplayMesh:
+    """The mesh of an equal tree with the ids of this one."""
+    owners = tuple(occurrence.path for occurrence in occurrences(root))
+    return mesh if owners == mesh.owners else replace(mesh, owners=owners)
+
+
+@dataclass(frozen=True, slots=True)
+class _Kept:
+    """A picture, and its messages with the way down to their node: the index of an operand at each level."""
+
+    solid: ShownSolid
+    messages: tuple[tuple[tuple[int, ...], Message], ...]
+
+
+class Pictures:
+    """The pictures of the last solids by key, up to `limit` bytes, so that going back to them asks nobody."""
+
+    def __init__(self, limit: int) -> None:
+        self._limit = limit
+        self._resolver = Resolver()
+        self._kept: OrderedDict[bytes, _Kept] = OrderedDict()
+        self._last: dict[str, ShownSolid] = {}
+
+    def keys(self) -> set[bytes]:
+        return set(self._kept)
+
+    def complete(self, document: Document, tolerance: float) -> bool:
+        """Whether every visible solid of the document is kept."""
+        return all(shown_key(root, tolerance) in self._kept for root in self._roots(document))
+
+    def keep(self, document: Document, answers: Sequence[tuple[Any, ...]]) -> None:
+        """Take a worker's answers for the visible solids: (key, mesh, measures, messages), or the key of a kept one."""
+        for root, answer in zip(self._roots(document), answers, strict=True):
+            if len(answer) > 1:
+                key, mesh, measures, messages = answer
+                ways = _ways(root, {message.node_id for message in messages})
+                placed = tuple((ways.get(message.node_id, ()), message) for message in messages)
+                self._kept[key] = _Kept(ShownSolid(key, mesh, measures), placed)
+        held = sum(_bytes(kept.solid) for kept in self._kept.values())
+        current = {answer[0] for answer in answers}
+        for key in list(self._kept):
+            if held <= self._limit:
+                break
+            if key not in current:
+                held -= _bytes(self._kept.pop(key).solid)
+
+    def shown(self, document: Document, tolerance: float) -> Shown:
+        """The document's pictures, all of which must be kept, with the ids of this document."""
+        solids: dict[str, ShownSolid] = {}
+        problems: list[Message] = []
+        for root in self._roots(document):
+            key = shown_key(root, tolerance)
+            kept = self._kept[key]
+            self._kept.move_to_end(key)
+            solid = self._last.get(root.id)
+            if solid is None or solid.key != key or not _same_ids(solid, root):
+                mesh = None if kept.solid.mesh is None else relabelled(kept.solid.mesh, root)
+                solid = kept.solid if mesh is kept.solid.mesh else ShownSolid(key, mesh, kept.solid.measures)
+            solids[root.id] = solid
+            for way, message in kept.messages:
+                node = root
+                for index in way:
+                    node = node.children[index]
+                problems.append(Message(node.id, node.label, message.message, message.error))
+        self._last = solids
+        return Shown(solids, tuple(problems))
+
+    def _roots(self, document: Document) -> list[Node]:
+        return [root for root in self._resolver.resolve(document).solids if root.visible]
+
+
+def _ways(root: Node, ids: set[str]) -> dict[str, tuple[int, ...]]:
+    """The way down to each of these nodes: the index of the operand at each level."""
+    found: dict[str, tuple[int, ...]] = {}
+    stack: list[tuple[Node, tuple[int, ...]]] = [(root, ())] if ids else []
+    while stack and len(found) < len(ids):
+        node, way = stack.pop()
+        if node.id in ids:
+            found.setdefault(node.id, way)
+        stack += [(child, (*way, i)) for i, child in enumerate(node.children)]
+    return found
+
+
+def _same_ids(solid: ShownSolid, root: Node) -> bool:
+    return solid.mesh is None or relabelled(solid.mesh, root) is solid.mesh
+
+
+def _bytes(solid: ShownSolid) -> int:
+    mesh = solid.mesh
+    if mesh is None:
+        return 100
+    arrays = (mesh.points, mesh.normals, mesh.triangles, mesh.owner, mesh.facet, mesh.edge_points, mesh.edges)
+    return sum(array.nbytes for array in arrays)
