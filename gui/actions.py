@@ -8,8 +8,8 @@ from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QToolBar, QWidget
 
-from ..model.document.commands import Command
 from ..model.document.errors import Refusal
+from ..model.editing.commands import Command
 from .icons import icon
 from .panels.text_line import TextLine
 

@@ -167,7 +167,7 @@ def _export(options: argparse.Namespace) -> int:
     document = read(options.file)
     out = Path(options.out)
     if out.suffix.lower() == ".solidtree":
-        from ..model.document.project_file import save_project
+        from ..model.project.project_file import save_project
 
         _about(options.out, lambda: save_project(document, out))
         return DONE

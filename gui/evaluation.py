@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from ..model.document.document import Document
-from ..model.document.session import Session, State
+from ..model.editing.session import Session, State
 
 if TYPE_CHECKING:
-    from ..model.solid.lane import Lane, LaneMessage
-    from ..model.solid.shown import Shown
+    from ..model.worker.lane import Lane, LaneMessage
+    from ..model.worker.shown import Shown
 
 PATIENCE = 100  # milliseconds before the window says that it is busy
 IDLE = 250  # milliseconds of rest before the worker gets ready for a drag of what is selected
@@ -21,8 +21,8 @@ PREVIEW = 4.0  # how much coarser the tolerance is while a value is being dragge
 
 
 def new_lane(on_message: Callable[[LaneMessage], None]) -> Lane:
-    from ..model.document.assets import default_store
-    from ..model.solid.lane import Lane
+    from ..model.project.assets import default_store
+    from ..model.worker.lane import Lane
 
     return Lane(on_message, default_store().folder)
 
@@ -167,7 +167,7 @@ class Evaluation(QObject):
             self._patience.start()
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.solid.lane import Cancelled, Died, Evaluated, Progress
+        from ..model.worker.lane import Cancelled, Died, Evaluated, Progress
 
         if self._closed:
             return
@@ -196,7 +196,7 @@ class Evaluation(QObject):
                 self._rest()
 
     def _receive_job(self, message: LaneMessage) -> None:
-        from ..model.solid.lane import Died, Exported, Progress
+        from ..model.worker.lane import Died, Exported, Progress
 
         if self._closed:
             return

@@ -10,8 +10,8 @@ from PySide6.QtCore import QObject, Signal
 
 from ..model.document.document import Document
 from ..model.document.errors import Refusal
-from ..model.document.operations import OPERATIONS
-from ..model.document.session import Session
+from ..model.editing.operations import OPERATIONS
+from ..model.editing.session import Session
 from . import dialogs
 from .background import Background
 from .settings import Settings
@@ -118,7 +118,7 @@ class Files(QObject):
         document, picture = self._session.document, self._thumbnail()
 
         def work() -> None:
-            from ..model.document.project_file import save_project
+            from ..model.project.project_file import save_project
 
             save_project(document, path, picture)
 

@@ -11,8 +11,8 @@ from PySide6.QtGui import QGuiApplication, QIcon, QIconEngine, QPainter, QPalett
 from PySide6.QtSvg import QSvgRenderer
 
 from .. import resources
-from ..model.document.echo import function_name
 from ..model.document.nodes import Node
+from ..model.editing.echo import function_name
 
 Colour = str | Callable[[], str] | None
 _pixmaps: dict[tuple[str, int, str], QPixmap] = {}

@@ -10,11 +10,10 @@ from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QTabWidget, QWidget
 
-from ..model.document.commands import DOCUMENT_COMMANDS
-from ..model.document.session import Session, State
 from ..model.document.tree import trail
+from ..model.editing.commands import DOCUMENT_COMMANDS
+from ..model.editing.session import Session, State
 from .actions import Actions
-from .constants_guard import keep_constants_alive
 from .evaluation import Evaluation
 from .files import Files
 from .menus import fill_menus
@@ -27,16 +26,15 @@ from .panels.tree import Tree
 from .settings import LAYOUT_VERSION, Settings
 from .status import StatusBar, shown_solids
 from .theme import Theme
-from .thumbnail import thumbnail
-from .viewport import Viewport
-from .welcome import Welcome
+from .view.thumbnail import thumbnail
+from .view.viewport import Viewport
+from .view.welcome import Welcome
 from .window_commands import FILE_COMMANDS, TOOL_BAR, VIEW_COMMANDS
 
 if TYPE_CHECKING:
-    from ..model.solid.shown import Shown
+    from ..model.worker.shown import Shown
 
 UNSEEN = 500  # milliseconds that the start waits for the window to appear
-keep_constants_alive()
 
 
 class MainWindow(QMainWindow):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..model.document.commands import Command
 from ..model.document.tree import walk
+from ..model.editing.commands import Command
 
 if TYPE_CHECKING:
     from .window import MainWindow

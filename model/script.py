@@ -31,7 +31,6 @@ from .document.nodes import (
     PolarArray,
     Union,
 )
-from .document.parameters import declared, names_of
 from .document.placement import Affine, Move, Reflect, Scale, Turn
 from .document.primitives import (
     Box,
@@ -49,6 +48,7 @@ from .document.primitives import (
     Torus,
 )
 from .document.tree import numbered, unique_name, walk
+from .editing.parameters import declared, names_of
 
 Value = Number | str | int
 """A number, an expression, or an expression's text."""
@@ -427,7 +427,7 @@ def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: floa
     document = document_of(*solids, **named)
     target = Path(path)
     if target.suffix.lower() == ".solidtree":
-        from .document.project_file import save_project
+        from .project.project_file import save_project
 
         save_project(document, target)
     else:

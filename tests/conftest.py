@@ -67,7 +67,11 @@ def child_processes() -> dict[int, str]:
     """Command lines of the running children by process id, on Linux; multiprocessing's own tracker left aside."""
     found = {}
     for listing in Path("/proc/self/task").glob("*/children"):
-        for number in listing.read_text().split():
+        try:
+            numbers = listing.read_text().split()
+        except OSError:  # the thread has just ended
+            continue
+        for number in numbers:
             try:
                 state = Path("/proc", number, "stat").read_text().rpartition(")")[2].split()[0]
                 command = Path("/proc", number, "cmdline").read_text().replace("\0", " ").strip()

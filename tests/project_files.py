@@ -4,11 +4,11 @@ import io
 import json
 import zipfile
 
-from solidtree.model.document.assets import AssetStore
 from solidtree.model.document.document import Document, Parameter
 from solidtree.model.document.expression import Expression
 from solidtree.model.document.nodes import Difference, Instance, LinearArray, Union
 from solidtree.model.document.primitives import Box, Cylinder, ImportedMesh, Polyhedron, Sphere
+from solidtree.model.project.assets import AssetStore
 
 CUBE = {"format": 1, "nodes": {"n1": {"kind": "Box"}}, "solids": ["n1"]}
 MESH = b"solid any bytes will do\n" * 9

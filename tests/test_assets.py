@@ -6,11 +6,11 @@ from hashlib import sha256
 
 import pytest
 
-from solidtree.model.document.assets import AssetStore, assets_of, default_store
 from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.nodes import Union
 from solidtree.model.document.primitives import Box, ImportedMesh
+from solidtree.model.project.assets import AssetStore, assets_of, default_store
 
 
 @pytest.fixture
@@ -66,7 +66,7 @@ def test_a_document_tells_its_assets(store):
 def test_another_process_opens_the_store_and_leaves_it(tmp_path):
     sha = default_store().put(b"shared")
     code = (
-        "import sys\nfrom solidtree.model.document.assets import default_store, use_store\n"
+        "import sys\nfrom solidtree.model.project.assets import default_store, use_store\n"
         "use_store(sys.argv[1])\nsys.stdout.buffer.write(default_store().read(sys.argv[2]))"
     )
     done = subprocess.run([sys.executable, "-c", code, default_store().folder, sha], capture_output=True, check=True)
@@ -76,7 +76,7 @@ def test_another_process_opens_the_store_and_leaves_it(tmp_path):
 
 def test_the_folder_goes_with_the_process():
     code = (
-        "from solidtree.model.document.assets import default_store\n"
+        "from solidtree.model.project.assets import default_store\n"
         "store = default_store()\nstore.put(b'x')\nprint(store.folder)"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)

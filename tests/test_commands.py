@@ -2,10 +2,10 @@
 
 import pytest
 
-from solidtree.model.document.commands import DOCUMENT_COMMANDS
 from solidtree.model.document.errors import Refusal
-from solidtree.model.document.session import Session
 from solidtree.model.document.tree import find
+from solidtree.model.editing.commands import DOCUMENT_COMMANDS
+from solidtree.model.editing.session import Session
 from solidtree.model.script import box, document_of, evaluate, extrude, linear_array, rectangle, sphere, union
 
 COMMANDS = {command.name: command for command in DOCUMENT_COMMANDS}

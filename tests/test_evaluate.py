@@ -4,7 +4,8 @@ import math
 
 import pytest
 
-from solidtree.model.document.nodes import Broken, LinearArray, PolarArray, Union
+from solidtree.model.document.document import Document
+from solidtree.model.document.nodes import Broken, Instance, LinearArray, PolarArray, Union
 from solidtree.model.document.primitives import (
     Box,
     Circle,
@@ -34,6 +35,7 @@ from solidtree.model.script import (
 )  # fmt: skip
 from solidtree.model.solid.entry import Superseded
 from solidtree.model.solid.evaluate import Evaluator
+from solidtree.model.solid.results import evaluate_document
 
 CUBE_POINTS = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1))
 CUBE_FACES = ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7))
@@ -236,3 +238,17 @@ def test_a_half_space_cuts_what_it_meets():
     gone = volume(ball - Halfspace(point=(0, 0, 4)))
     assert kept + gone == pytest.approx(volume(ball), rel=1e-12)
     assert kept == pytest.approx(math.pi * 36 * (30 - 6) / 3, rel=0.02)  # a cap of height 6
+
+
+def test_trees_that_unfold_without_measure_are_refused_at_once():
+    nested = box(1)
+    for _ in range(5):
+        nested = LinearArray(children=(nested,), count=1000)
+    assert "1,000,000,000,000,000 parts" in fault(nested)[1]
+    definitions = [box(1).with_(id="d0")]
+    for i in range(60):
+        twice = (Instance(id=f"a{i}", definition=f"d{i}"), Instance(id=f"b{i}", definition=f"d{i}").at(2.0**i))
+        definitions.append(Union(id=f"d{i + 1}", children=twice))
+    document = Document(solids=(Instance(id="i", definition="d60"),), definitions=tuple(definitions))
+    (message,) = evaluate_document(document).messages
+    assert message.node_id == "i" and "parts; at most" in message.message

@@ -8,11 +8,11 @@ import time
 import numpy as np
 import pytest
 
-from solidtree.model.document.assets import default_store
 from solidtree.model.document.document import Document
 from solidtree.model.document.tree import change, numbered
+from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
-from solidtree.model.solid.lane import Cancelled, Died, Evaluated, Exported, Lane, Progress, Started
+from solidtree.model.worker.lane import Cancelled, Died, Evaluated, Exported, Lane, Progress, Started
 
 
 class Listener:

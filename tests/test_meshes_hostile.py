@@ -27,10 +27,10 @@ from mesh_files import (
     volume,
 )
 
-from solidtree.model.document.assets import AssetStore
 from solidtree.model.document.errors import Refusal
 from solidtree.model.exchange import meshes_in
 from solidtree.model.exchange.meshes_in import import_file, read_mesh_file
+from solidtree.model.project.assets import AssetStore
 
 
 def refusal_of(data, file_format):

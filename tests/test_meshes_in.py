@@ -7,14 +7,14 @@ import numpy as np
 import pytest
 from mesh_files import CORNERS, CUBE, GOOD, MESH, PLAIN, QUADS, area, gltf, obj, stl, threemf, volume
 
-from solidtree.model.document.assets import AssetStore
 from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.primitives import Box, ImportedMesh
-from solidtree.model.document.project_file import save_project
 from solidtree.model.exchange import meshes_in
 from solidtree.model.exchange.meshes_in import import_file, parts_of_asset, read_any, read_mesh_file
 from solidtree.model.exchange.meshes_out import OutSolid, write_meshes
+from solidtree.model.project.assets import AssetStore
+from solidtree.model.project.project_file import save_project
 
 
 @pytest.mark.parametrize(("file_format", "data"), GOOD)

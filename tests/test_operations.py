@@ -6,12 +6,12 @@ import pytest
 from solidtree.model.document.document import Document, Parameter
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.nodes import Broken, Difference, Instance, LinearArray, Mirror, PolarArray, Union
-from solidtree.model.document.operations import OPERATIONS
 from solidtree.model.document.placement import Move, Scale, product
 from solidtree.model.document.primitives import Box, Extrude, Revolve
 from solidtree.model.document.resolve import resolve
 from solidtree.model.document.table import from_table, to_table
 from solidtree.model.document.tree import find, trail, walk
+from solidtree.model.editing.operations import OPERATIONS
 from solidtree.model.script import (
     at,
     box,

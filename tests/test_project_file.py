@@ -12,13 +12,13 @@ from hashlib import sha256
 import pytest
 from project_files import CUBE, MESH, project, sample
 
-from solidtree.model.document import project_file
-from solidtree.model.document.assets import AssetStore
 from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.primitives import Box, Sphere
-from solidtree.model.document.project_file import FORMAT, open_project, save_project
 from solidtree.model.document.table import same_document
+from solidtree.model.project import project_file
+from solidtree.model.project.assets import AssetStore
+from solidtree.model.project.project_file import FORMAT, open_project, save_project
 
 
 @pytest.fixture

@@ -10,9 +10,9 @@ from hashlib import sha256
 import pytest
 from project_files import CUBE, packed, project, sample
 
-from solidtree.model.document.assets import AssetStore
 from solidtree.model.document.errors import Refusal
-from solidtree.model.document.project_file import open_project, save_project
+from solidtree.model.project.assets import AssetStore
+from solidtree.model.project.project_file import open_project, save_project
 
 
 @pytest.fixture

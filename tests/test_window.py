@@ -8,10 +8,10 @@ from PySide6.QtWidgets import QApplication, QLineEdit, QMessageBox, QToolButton
 from solidtree.gui.dialogs import ExportDialog
 from solidtree.gui.menus import example_names, open_example
 from solidtree.gui.palette import score
-from solidtree.model.document.commands import DOCUMENT_COMMANDS
 from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Difference, Intersection, Union
 from solidtree.model.document.primitives import Box, Cylinder, Halfspace, Sphere
+from solidtree.model.editing.commands import DOCUMENT_COMMANDS
 
 pytest_plugins = ["window_driver"]
 CTRL = Qt.KeyboardModifier.ControlModifier
@@ -421,7 +421,7 @@ def test_a_long_evaluation_is_told_and_cancelled(driver):
 
 
 def test_previewed_colours_are_painted_and_not_evaluated(driver):
-    from solidtree.model.document.operations import OPERATIONS
+    from solidtree.model.editing.operations import OPERATIONS
 
     driver.keys("Shift+B")
     driver.settle()

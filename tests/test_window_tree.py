@@ -9,10 +9,10 @@ from solidtree.gui.panels.tree_model import EYE, TreeModel
 from solidtree.gui.panels.tree_rows import longest_rising, runs
 from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Difference, Node, Union
-from solidtree.model.document.operations import combine, delete, duplicate, relocate, rename
 from solidtree.model.document.primitives import Box, Cylinder, Sphere
-from solidtree.model.document.session import Session
 from solidtree.model.document.tree import find, trail, walk
+from solidtree.model.editing.operations import combine, delete, duplicate, relocate, rename
+from solidtree.model.editing.session import Session
 
 pytest_plugins = ["window_driver"]
 CTRL = Qt.KeyboardModifier.ControlModifier

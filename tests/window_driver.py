@@ -12,8 +12,8 @@ from solidtree.gui.settings import Settings
 from solidtree.gui.window import MainWindow
 from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Node
-from solidtree.model.document.session import Session
 from solidtree.model.document.tree import walk
+from solidtree.model.editing.session import Session
 
 LEFT = Qt.MouseButton.LeftButton
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QVBoxLayout, QWi
 from ...model.document.errors import Refusal
 from ...model.document.expression import Number, resolved
 from ...model.document.nodes import Node
-from ...model.document.session import Session
+from ...model.editing.session import Session
 from .number_field import Steps
 from .property_edit import Edit, sentence
 from .property_fields import LABEL_WIDTH, NumberRow

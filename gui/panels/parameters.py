@@ -21,16 +21,16 @@ from PySide6.QtWidgets import (
 
 from ...model.document.document import Document, Parameter, parameter_values
 from ...model.document.errors import Refusal
-from ...model.document.operations import OPERATIONS
-from ...model.document.session import Session, State
 from ...model.document.tree import unique_name
+from ...model.editing.operations import OPERATIONS
+from ...model.editing.session import Session, State
 from ..icons import icon
 from .number_field import text_of
 from .property_edit import sentence
 
 NAME, VALUE, SLIDER, RESULT, MINIMUM, MAXIMUM, NOTE = range(7)
 TITLES = ("Name", "Value", "", "=", "Minimum", "Maximum", "Note")
-WIDTHS = (120, 140, 150, 90, 80, 80, 160)
+WIDTHS = (110, 120, 130, 80, 84, 86, 120)
 
 
 class Parameters(QWidget):

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSize, Qt, Signal
 from PySide6.QtWidgets import QLabel, QListWidget, QListWidgetItem, QStackedLayout, QWidget
 
-from ...model.document.session import Session
+from ...model.editing.session import Session
 from ..icons import severity_icon
 from .property_edit import sentence
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ...model.solid.shown import Message
+    from ...model.worker.shown import Message
 
 NODE = Qt.ItemDataRole.UserRole
 

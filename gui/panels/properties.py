@@ -9,8 +9,8 @@ from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QWidget
 
 from ...model.document.document import parameter_values
 from ...model.document.errors import Refusal
-from ...model.document.session import Session, State
 from ...model.document.tree import find
+from ...model.editing.session import Session, State
 from .measures import MeasuresView
 from .node_form import NodeForm, extra_steps
 

@@ -10,10 +10,10 @@ from ...model.document.errors import Refusal
 from ...model.document.expression import number, resolved
 from ...model.document.fields import FieldSpec
 from ...model.document.nodes import Node, field_specs
-from ...model.document.operations import OPERATIONS
 from ...model.document.placement import Move, Placement, Scale, Step
-from ...model.document.session import Session
 from ...model.document.tree import find
+from ...model.editing.operations import OPERATIONS
+from ...model.editing.session import Session
 
 
 class Edit:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from PySide6.QtGui import QFontDatabase, QTextCursor
 from PySide6.QtWidgets import QPlainTextEdit, QWidget
 
-from ...model.document.session import Session, State
+from ...model.editing.session import Session, State
 
 
 class ScriptLog(QPlainTextEdit):

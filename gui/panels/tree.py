@@ -35,7 +35,7 @@ from PySide6.QtWidgets import (
 )
 
 from ...model.document.errors import Refusal
-from ...model.document.session import Session, State
+from ...model.editing.session import Session, State
 from ..actions import Actions
 from .tree_model import BADGE, EYE, NAME, TreeModel
 

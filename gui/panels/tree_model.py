@@ -14,14 +14,14 @@ from PySide6.QtGui import QGuiApplication, QPalette
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
 from ...model.document.nodes import Instance, Node
-from ...model.document.operations import OPERATIONS
-from ...model.document.session import Session
 from ...model.document.tree import find
+from ...model.editing.operations import OPERATIONS
+from ...model.editing.session import Session
 from ..icons import icon, kind_icon, severity_icon
 from .tree_rows import Row, longest_rising, runs
 
 if TYPE_CHECKING:
-    from ...model.solid.shown import Message
+    from ...model.worker.shown import Message
 
 NAME, BADGE, EYE = range(3)
 MIME = "application/x-solidtree-nodes"
@@ -260,7 +260,7 @@ class TreeModel(QAbstractItemModel):
         self, action: Qt.DropAction, ids: list[str], parent_id: str | None, index: int | None
     ) -> tuple[Document, list[str]]:
         """The document after the drop, and the lines of Python that do a copy. Raises Refusal."""
-        from ...model.document.echo import call
+        from ...model.editing.echo import call
 
         document = self._session.document
         if action != Qt.DropAction.CopyAction:

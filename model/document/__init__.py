@@ -1,1 +1,1 @@
-"""Nodes, placement, tree surgery, parameters, history, session, project files. Imports nothing but `model`."""
+"""What a document is made of: nodes, placement, expressions, trees, tables. Imports nothing but `model`."""

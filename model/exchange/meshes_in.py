@@ -11,13 +11,13 @@ from collections import OrderedDict
 from collections.abc import Callable
 from pathlib import Path
 
-from ..document.assets import AssetStore, default_store
-from ..document.disk import one_line, read_whole, reason_of
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.primitives import ImportedMesh
-from ..document.project_file import open_project
 from ..document.tree import unique_name
+from ..project.assets import AssetStore, default_store
+from ..project.disk import one_line, read_whole, reason_of
+from ..project.project_file import open_project
 from .gltf import read_gltf
 from .obj import Fetch, read_obj
 from .off import HEADER, read_off

@@ -9,8 +9,8 @@ from typing import BinaryIO
 
 import numpy as np
 
-from ..document.disk import replace_file
 from ..document.errors import Refusal
+from ..project.disk import replace_file
 from .gltf_out import write_glb
 from .obj import write_obj
 from .off import write_off

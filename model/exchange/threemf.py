@@ -16,9 +16,9 @@ from xml.sax.saxutils import quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from ..document.archive import allowance, member, members_of, open_archive, unpacked
 from ..document.errors import Refusal
 from ..document.placement import product
+from ..project.archive import allowance, member, members_of, open_archive, unpacked
 from .parts import MAX_PARTS, Part, check_parts, check_total, make_part, placed
 from .solids import OutSolid, lines, plain_name
 from .threemf_model import Model, XmlReader

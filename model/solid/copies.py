@@ -10,6 +10,7 @@ from ..document.placement import IDENTITY, turn_about, unit
 from .failure import NoSolid
 
 MOST_COPIES = 100_000
+MOST_OCCURRENCES = 1_000_000
 
 
 def copies(node: Node) -> list[NDArray[np.float64]]:
@@ -29,6 +30,28 @@ def copies(node: Node) -> list[NDArray[np.float64]]:
         image = np.column_stack((np.eye(3) - 2 * np.outer(normal, normal), 2 * normal * (normal @ point)))
         return [IDENTITY, image] if node.keep else [image]
     return [IDENTITY]
+
+
+def occurrence_count(root: Node) -> int:
+    """How many leaves a resolved tree has with all copies written out; shared operands are counted once and multiplied.
+
+    Nothing is written out here: arrays of arrays and definitions of definitions can unfold to any number.
+    """
+    counts: dict[int, int] = {}
+    stack = [root]
+    while stack:
+        node = stack[-1]
+        missing = [child for child in node.children if id(child) not in counts]
+        if missing and id(node) not in counts:
+            stack += missing
+            continue
+        stack.pop()
+        try:
+            times = _count(node) if isinstance(node, LinearArray | PolarArray) else 2 if isinstance(node, Mirror) else 1
+        except NoSolid:
+            times = 1
+        counts[id(node)] = times * max(1, sum(counts[id(child)] for child in node.children))
+    return counts[id(root)]
 
 
 def _count(node: LinearArray | PolarArray) -> int:

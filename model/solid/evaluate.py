@@ -18,7 +18,7 @@ from ..document.nodes import Broken, Node, Union, range_fault
 from ..document.placement import IDENTITY, product
 from ..document.primitives import OUTLINES, Halfspace
 from .combine import Cuts, Operand, joint_key
-from .copies import copies
+from .copies import MOST_OCCURRENCES, copies, occurrence_count
 from .entry import Bounds, Entry, Key, Problem, Steps, Wanted
 from .failure import NoSolid
 from .leaves import solid_of
@@ -63,6 +63,10 @@ class Evaluator:
         `progress(label)` is called when a node is done, with the name of the next, and may raise Superseded to stop.
         """
         self._progress = progress or (lambda label: None)
+        count = occurrence_count(root)
+        if count > MOST_OCCURRENCES:
+            fault = f"“{root.label}” unfolds to {count:,} parts; at most {MOST_OCCURRENCES:,} are made"
+            return Entry((root.digest, tolerance, b""), None, (Problem((), fault),))
         box = None
         if self.ends.endless(root):
             try:

@@ -97,7 +97,7 @@ def intersection(evaluator: Evaluator, wanted: Wanted) -> Steps:
     for place in order:
         child = children[place]
         endless = evaluator.ends.endless(child)
-        if endless and limits is not None and (limits[0] > limits[1]).any():
+        if endless and (failed or (limits is not None and (limits[0] > limits[1]).any())):
             continue
         box = (wanted.box if limits is None else coarse(limits)) if endless else None
         operand = yield from evaluator.operand(wanted, (place,), child, IDENTITY, box, problems)

@@ -7,8 +7,8 @@ from enum import Enum, auto
 from PySide6.QtCore import QObject, QPointF, Qt, QTimer, Signal
 from PySide6.QtGui import QMouseEvent, QWheelEvent
 
-from ..render.camera import Camera, orbit, pan, zoom
-from ..render.viewer import Viewer
+from ...render.camera import Camera, orbit, pan, zoom
+from ...render.viewer import Viewer
 
 DEGREES_A_PIXEL = 0.4
 STEP = 1.2  # zoom factor of one notch of the wheel

@@ -16,9 +16,9 @@ from ..document.nodes import Difference, Node
 from ..document.resolve import Resolver
 from ..document.table import Reuse, from_table
 from ..document.tree import change, trail
-from .entry import Superseded
-from .evaluate import Evaluator
-from .results import SolidResult, display_of, messages_of
+from ..solid.entry import Superseded
+from ..solid.evaluate import Evaluator
+from ..solid.results import SolidResult, display_of, messages_of
 from .shown import Message, shown_key
 
 INTERVAL = 0.1
@@ -29,7 +29,7 @@ def work(connection: Connection, store_folder: str) -> None:
     """Answer requests until the other side is gone."""
     _die_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    from ..document.assets import use_store
+    from ..project.assets import use_store
 
     use_store(Path(store_folder))
     worker = _Worker(connection)
@@ -76,7 +76,7 @@ class _Worker:
             self._reuse.clear()
         document = from_table(table, self._reuse)
         roots = [root for root in self._resolver.resolve(document).solids if root.visible]
-        progress = _Progress(self._connection, number, sum(_size(root) for root in roots))
+        progress = _Progress(self._connection, number, len(table["nodes"]))
         answers: list[tuple[Any, ...]] = []
         for root in roots:
             key = shown_key(root, tolerance)
@@ -98,7 +98,7 @@ class _Worker:
             without = change(document, node_id, lambda node: None)
             place = next(i for i, root in enumerate(without.solids) if root.id == above[0].id)
             root = self._resolver.resolve(without).solids[place]
-            self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, _size(root)))
+            self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, len(table["nodes"])))
         return "prepared", number
 
     def _export(
@@ -109,14 +109,6 @@ class _Worker:
         progress = _Progress(self._connection, number, len(table["nodes"]))
         export_document(from_table(table), Path(path), tolerance, solid, progress)
         return "exported", number, path
-
-
-def _size(root: Node) -> int:
-    count, stack = 0, [root]
-    while stack:
-        count += 1
-        stack += stack.pop().children
-    return count
 
 
 class _Progress:

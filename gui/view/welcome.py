@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from .actions import Actions
+from ..actions import Actions
 
 FIRST = ("add_box", "add_sphere", "add_cylinder", "add_halfspace")
 RECENT = 4

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, QVariantAnimation, Signal
 
 if TYPE_CHECKING:
-    from ..render.camera import Camera
+    from ...render.camera import Camera
 
 DURATION = 200  # milliseconds
 
@@ -41,7 +41,7 @@ class Flight(QObject):
         self._way = None
 
     def _step(self, part: float) -> None:
-        from ..render.views import interpolate
+        from ...render.views import interpolate
 
         if self._way is not None:
             self.moved.emit(interpolate(*self._way, part * part * (3.0 - 2.0 * part)))

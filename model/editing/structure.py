@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from .document import Document
-from .echo import function_name
-from .errors import Refusal
-from .linking import check_definitions
-from .nodes import (
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.nodes import (
     KINDS,
     Broken,
     Difference,
@@ -23,10 +21,9 @@ from .nodes import (
     Union,
     field_specs,
 )
-from .parameters import declaring
-from .placement import Move, Placement, Reflect, Step
-from .primitives import OUTLINES, Extrude, Revolve
-from .tree import (
+from ..document.placement import Move, Placement, Reflect, Step
+from ..document.primitives import OUTLINES, Extrude, Revolve
+from ..document.tree import (
     change,
     change_each,
     find,
@@ -41,6 +38,9 @@ from .tree import (
     unique_name,
     walk,
 )
+from .echo import function_name
+from .linking import check_definitions
+from .parameters import declaring
 
 OF_SOLIDS: tuple[type[Node], ...] = (
     Union, Difference, Intersection, Hull, Minkowski, LinearArray, PolarArray, Mirror,

@@ -6,11 +6,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.tree import walk
 from . import echo
-from .document import Document
-from .errors import Refusal
 from .operations import OPERATIONS
-from .tree import walk
 
 DEPTH = 1000
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import BinaryIO
 
-from .errors import Refusal
+from ..document.errors import Refusal
 
 _REASONS = {
     errno.ENOENT: "there is no such file or folder",

@@ -10,15 +10,15 @@ from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPaintEngine, QPaintEvent, QResizeEvent, QShowEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from ..model.document.session import Session, State
+from ...model.editing.session import Session, State
 from .flight import Flight
 from .occurrences import paint_of, paths_through, selected_bounds
 from .pointed import Pointed
 
 if TYPE_CHECKING:
-    from ..render.camera import Camera
-    from ..render.pick import Pick
-    from ..render.viewer import Viewer
+    from ...render.camera import Camera
+    from ...render.pick import Pick
+    from ...render.viewer import Viewer
     from .navigation import Navigation
 
 
@@ -63,7 +63,7 @@ class Viewport(QWidget):
 
     def attach(self, theme: str) -> None:
         """Load VTK and begin to draw."""
-        from ..render.viewer import Viewer
+        from ...render.viewer import Viewer
         from .navigation import Navigation
 
         self.viewer = Viewer(int(self.winId()), theme)
@@ -153,7 +153,7 @@ class Viewport(QWidget):
 
     def look_from(self, name: str) -> None:
         """Turn to a standard view and fit."""
-        from ..render.views import standard_view
+        from ...render.views import standard_view
 
         if self.viewer is not None:
             self.move_to(self.viewer.fitted(standard_view(self.viewer.camera, name)))
@@ -170,7 +170,7 @@ class Viewport(QWidget):
         self._fit_bounds(bounds)
 
     def _fit_bounds(self, bounds: Any) -> None:
-        from ..render.camera import fit
+        from ...render.camera import fit
 
         if self.viewer is not None:
             aspect = self.viewer.size[0] / self.viewer.size[1]

@@ -13,11 +13,11 @@ import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.primitives import ImportedMesh
+from ..document.tree import walk
 from .disk import reason_of
-from .document import Document
-from .errors import Refusal
-from .primitives import ImportedMesh
-from .tree import walk
 
 _SHA = re.compile(r"[0-9a-f]{64}")
 

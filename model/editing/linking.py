@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from .document import Document
-from .errors import Refusal
-from .nodes import Instance, Node
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.nodes import Instance, Node
+from ..document.placement import Placement
+from ..document.primitives import OUTLINES
+from ..document.tree import FAMILIES, change, change_each, find, next_number, numbered, trail, unique_name, walk
 from .parameters import declaring
-from .placement import Placement
-from .primitives import OUTLINES
-from .tree import FAMILIES, change, change_each, find, next_number, numbered, trail, unique_name, walk
 
 
 def link(document: Document, node_id: str) -> Document:

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from ..document.document import Document
 from ..document.table import to_table
+from ..solid.tessellation import DEFAULT_TOLERANCE
 from .process import serve
 from .shown import Message, Pictures, Shown
-from .tessellation import DEFAULT_TOLERANCE
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection

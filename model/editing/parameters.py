@@ -6,12 +6,12 @@ import dataclasses
 from collections.abc import Iterable
 from typing import Any
 
-from .document import Document, Parameter
-from .errors import Refusal
-from .expression import Expression, Number, expressions_in
-from .nodes import Node, field_specs
-from .placement import Placement
-from .tree import change_each, walk
+from ..document.document import Document, Parameter
+from ..document.errors import Refusal
+from ..document.expression import Expression, Number, expressions_in
+from ..document.nodes import Node, field_specs
+from ..document.placement import Placement
+from ..document.tree import change_each, walk
 
 
 def set_parameter(document: Document, name: str, value: Number | str, **more: Any) -> Document:

@@ -9,16 +9,16 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .colours import hex_colour
-from .document import Document
-from .errors import Refusal
-from .expression import Number
+from ..document.colours import hex_colour
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.expression import Number
+from ..document.nodes import Instance, field_specs
+from ..document.placement import Placement, Step, moved
+from ..document.tree import change, change_each, find, outermost
 from .linking import check_definitions, insert_document, link, unlink
-from .nodes import Instance, field_specs
 from .parameters import declaring, delete_parameter, rename_parameter, set_parameter
-from .placement import Placement, Step, moved
 from .structure import change_kind, combine, delete, dissolve, duplicate, insert, relocate, replace
-from .tree import change, change_each, find, outermost
 
 
 def rename(document: Document, node_id: str, name: str) -> Document:

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from pathlib import PurePosixPath, PureWindowsPath
 from typing import BinaryIO
 
-from .errors import Refusal
+from ..document.errors import Refusal
 
 MAX_MEMBERS = 100_000
 MAX_RATIO = 300

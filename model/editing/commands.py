@@ -9,10 +9,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from .nodes import Instance, Node
-from .primitives import Box, Circle, Cone, Cylinder, Extrude, Halfspace, Rectangle, Revolve, Sphere, Torus
+from ..document.nodes import Instance, Node
+from ..document.primitives import Box, Circle, Cone, Cylinder, Extrude, Halfspace, Rectangle, Revolve, Sphere, Torus
+from ..document.tree import find, index_of, parent
 from .session import Session
-from .tree import find, index_of, parent
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,14 +12,14 @@ import zipfile
 from collections.abc import Callable
 from typing import Any, BinaryIO
 
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.primitives import ImportedMesh
+from ..document.table import from_table, to_table
+from ..document.tree import walk
 from .archive import allowance, member, members_of, open_archive, unpacked
 from .assets import AssetStore, assets_of, default_store, is_sha
 from .disk import one_line, reason_of, replace_file
-from .document import Document
-from .errors import Refusal
-from .primitives import ImportedMesh
-from .table import from_table, to_table
-from .tree import walk
 
 FORMAT = 1
 MIGRATIONS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ..model.document.document import Document
-from ..model.document.nodes import Node
-from ..model.document.tree import walk
+from ...model.document.document import Document
+from ...model.document.nodes import Node
+from ...model.document.tree import walk
 
 if TYPE_CHECKING:
-    from ..model.solid.display import DisplayMesh
-    from ..render.look import Paint
+    from ...model.solid.display import DisplayMesh
+    from ...render.look import Paint
 
 Path = tuple[str | int, ...]
 
@@ -45,7 +45,7 @@ def selected_bounds(ids: Iterable[str], meshes: Iterable[DisplayMesh]) -> NDArra
 
 def paint_of(document: Document, root: Node, mesh: DisplayMesh) -> Paint:
     """Each owner's colour: that of the lowest coloured node on its path below the root, the root's by default."""
-    from ..render.look import Paint
+    from ...render.look import Paint
 
     colours = {node.id: node.colour for node in walk(root, *document.definitions) if node.colour is not None}
     if not colours:

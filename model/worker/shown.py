@@ -10,9 +10,9 @@ from typing import Any
 from ..document.document import Document
 from ..document.nodes import Node
 from ..document.resolve import Resolver
-from .display import DisplayMesh
-from .measure import Measures
-from .provenance import occurrences
+from ..solid.display import DisplayMesh
+from ..solid.measure import Measures
+from ..solid.provenance import occurrences
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..model.document.document import Document
-from ..model.document.session import Session
-from ..model.document.tree import walk
+from ...model.document.document import Document
+from ...model.document.tree import walk
+from ...model.editing.session import Session
 
 if TYPE_CHECKING:
-    from ..render.pick import Pick
+    from ...render.pick import Pick
 
 Path = tuple[str | int, ...]
 

@@ -5,13 +5,13 @@ from __future__ import annotations
 import dataclasses
 from typing import Any
 
-from .document import Document
-from .expression import Expression
-from .nodes import Instance, Node, field_specs
+from ..document.document import Document
+from ..document.expression import Expression
+from ..document.nodes import Instance, Node, field_specs
+from ..document.placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
+from ..document.table import to_table
+from ..document.tree import numbered
 from .parameters import parameter_arguments
-from .placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
-from .table import to_table
-from .tree import numbered
 
 MAX_NESTING = 60
 """Python cannot read calls nested some 200 deep; such a tree is written as its table."""

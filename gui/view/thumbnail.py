@@ -8,7 +8,7 @@ from PySide6.QtCore import QBuffer, QByteArray, QIODevice, Qt
 from PySide6.QtGui import QImage
 
 if TYPE_CHECKING:
-    from ..render.viewer import Viewer
+    from ...render.viewer import Viewer
 
 SIDE = 256  # pixels
 

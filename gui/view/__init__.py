@@ -1,0 +1,1 @@
+"""The picture in the window: viewport, navigation, what the pointer is on. May import ..render and ..model."""

@@ -1,0 +1,1 @@
+"""Project files and the assets they carry. Imports from ..document."""

@@ -1,0 +1,1 @@
+"""The worker process, and the lane that feeds it. Imports from ..document, ..solid and ..exchange."""
