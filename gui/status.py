@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QStatusBar, QTo
 from ..model.document.document import Document
 from ..model.document.errors import Refusal
 from ..model.document.tree import trail
-from .icons import icon
+from .icons import icon, severity_icon
 
 LASTING = 8000  # milliseconds that a message stays
 
@@ -47,14 +47,22 @@ def shown_solids(document: Document, selection: tuple[str, ...], shown: Any) -> 
 
 
 class StatusBar(QStatusBar):
-    """`cancel_asked` comes from the button beside the progress."""
+    """`cancel_asked` comes from the button beside the progress, `problems_asked` from a click on the first problem."""
 
     cancel_asked = Signal()
+    problems_asked = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizeGripEnabled(False)
         self.hover = QLabel(self)
+        self.problem = QToolButton(self)
+        self.problem.setObjectName("problem")
+        self.problem.setProperty("flat", True)
+        self.problem.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.problem.clicked.connect(self.problems_asked)
+        self.problem.hide()
+        self.addWidget(self.problem)
         self.addWidget(self.hover, 1)
         self.measures = QLabel(self)
         self.measures.setObjectName("measures")
@@ -114,6 +122,14 @@ class StatusBar(QStatusBar):
     def set_time(self, seconds: float) -> None:
         self.time.setToolTip("How long the last evaluation took")
         self.time.setText(f"{seconds * 1000:.0f} ms" if seconds < 1 else f"{seconds:.1f} s")
+
+    def set_problem(self, text: str) -> None:
+        """The first error, for as long as it lasts; "" where all is well."""
+        self.problem.setVisible(bool(text))
+        if text:
+            self.problem.setIcon(severity_icon(True))
+            self.problem.setText(self.problem.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, 520))
+            self.problem.setToolTip(f"{text}<br>Click to see all problems")
 
     def set_measures(self, words: str, solids: list[Any]) -> None:
         """Sums over measured solids; empty where there are none."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from importlib.resources import files
+from pathlib import Path
 from string import Template
 
 from PySide6.QtCore import QObject, Qt, Signal
@@ -145,4 +146,5 @@ def palette_of(colours: Colours) -> QPalette:
 
 def style_sheet(colours: Colours) -> str:
     file = files(resources).joinpath("styles", "window.qss")
-    return Template(file.read_text(encoding="utf-8")).substitute(asdict(colours))
+    check = files(resources).joinpath("icons", "check.svg")
+    return Template(file.read_text(encoding="utf-8")).substitute(asdict(colours), check=Path(str(check)).as_posix())

@@ -155,6 +155,7 @@ class MainWindow(QMainWindow):
         self.evaluation.outdated.connect(self.status.set_outdated)
         self.evaluation.progress.connect(self.status.set_progress)
         self.status.cancel_asked.connect(self.evaluation.cancel)
+        self.status.problems_asked.connect(self._show_problems)
         self.viewport.hovered.connect(self.status.set_hover)
         self.problems.counted.connect(self._count_problems)
         self.theme.changed.connect(lambda name: self.viewport.change(lambda viewer: viewer.set_theme(name)))
@@ -185,6 +186,7 @@ class MainWindow(QMainWindow):
             )
         self.tree.nodes.set_problems(shown.problems)
         self.problems.set_problems(shown.problems)
+        self.status.set_problem(next((problem.message for problem in shown.problems if problem.error), ""))
         self.status.set_time(seconds)
         self._measure()
         self.actions_.refresh()
@@ -203,6 +205,10 @@ class MainWindow(QMainWindow):
     def _busy(self, busy: bool) -> None:
         self.status.set_busy(busy)
         self.actions_.refresh()
+
+    def _show_problems(self) -> None:
+        self.problems_dock.show()
+        self.problems_dock.raise_()
 
     def _count_problems(self, count: int) -> None:
         self.problems_dock.setWindowTitle(f"Problems ({count})" if count else "Problems")

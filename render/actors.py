@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 Path = tuple[str | int, ...]
 
-SELECTED, HOVERED = 0.6, 0.38  # how much of the highlight's colour is mixed into a face
+SELECTED, HOVERED = 0.42, 0.28  # how much of the highlight's colour is mixed into a face
 
 
 class SolidActors:

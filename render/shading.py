@@ -8,6 +8,7 @@ eye is taken to be at infinity, as the fixed pipeline did.
 from typing import TYPE_CHECKING
 
 import numpy as np
+import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  (without its factory an actor has no shader property)
 
 from .look import LIGHTS, Look
 

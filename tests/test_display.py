@@ -6,13 +6,13 @@ import pytest
 from solidtree.model.document.tree import numbered
 from solidtree.model.script import box, cone, cylinder, sphere, union
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.results import display_of
+from solidtree.model.solid.results import display_of, result_of
 
 
 def picture_of(node):
     (root,) = numbered([node])
     evaluator = Evaluator()
-    return display_of(root, evaluator.evaluate(root).solid, evaluator)
+    return display_of(result_of(root, evaluator.evaluate(root)), evaluator)
 
 
 def lengths(mesh):

@@ -252,3 +252,20 @@ def test_trees_that_unfold_without_measure_are_refused_at_once():
     document = Document(solids=(Instance(id="i", definition="d60"),), definitions=tuple(definitions))
     (message,) = evaluate_document(document).messages
     assert message.node_id == "i" and "parts; at most" in message.message
+
+
+def test_of_what_failed_the_rest_is_still_to_be_seen():
+    bad = sphere(0)
+    for tree, rest in (
+        (union(box(1), bad), 1),
+        (union(box(1), union(bad, box(1).at(5)).at(1)).scaled(2), 16),
+        (box(2) - box(1) - bad, 7),
+        (intersection(box(2), bad, Halfspace(point=(0, 0, 1))), 4),
+        (linear_array(union(box(1), bad), 3), 3),
+    ):
+        entry = Evaluator().evaluate(tree)
+        assert entry.solid is None and any(problem.error for problem in entry.problems)
+        assert entry.rest.volume() == pytest.approx(rest)
+    for tree in (bad, bad - box(1), union(bad) & bad, hull(union(box(1), bad), box(1))):
+        entry = Evaluator().evaluate(tree)
+        assert entry.solid is None and (entry.rest is None or entry.rest.is_empty())

@@ -31,7 +31,7 @@ from solidtree.model.script import (
     union,
 )  # fmt: skip
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.results import display_of, evaluate_document, measures_of
+from solidtree.model.solid.results import display_of, evaluate_document, measures_of, result_of
 
 numbers = st.sampled_from([-1.0, 0.0, 0.3, 1.0, 2.5, 7.0])
 vectors = st.tuples(numbers, numbers, numbers)
@@ -103,5 +103,5 @@ def test_what_is_kept_changes_no_answer_and_every_face_has_an_owner(first, secon
         if warm.solid is not None:
             size = 1 + abs(cold.solid.volume())
             assert warm.solid.volume() == pytest.approx(cold.solid.volume(), abs=1e-9 * size)
-            mesh = display_of(root, warm.solid, evaluator)
+            mesh = display_of(result_of(root, warm), evaluator)
             assert (mesh.owner >= 0).all()

@@ -20,14 +20,14 @@ from solidtree.model.script import (
     union,
 )  # fmt: skip
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.results import display_of
+from solidtree.model.solid.results import display_of, result_of
 
 
 def shown(node, incremental=False, evaluator=None):
     """The picture of a tree and, per triangle, the name of the leaf that made it."""
     (root,) = numbered([node])
     evaluator = evaluator or Evaluator(incremental=incremental)
-    mesh = display_of(root, evaluator.evaluate(root).solid, evaluator)
+    mesh = display_of(result_of(root, evaluator.evaluate(root)), evaluator)
     names = {n.id: n.name for n in _walk(root)}
     assert (mesh.owner >= 0).all()
     return mesh, np.array([names[mesh.owners[i][-1]] for i in mesh.owner])
@@ -70,7 +70,7 @@ def test_equal_parts_in_different_places_are_told_apart():
 def test_copies_carry_their_number():
     (root,) = numbered([polar_array(linear_array(box(1), 3, (2, 0, 0)).at(4), 5)])
     evaluator = Evaluator()
-    mesh = display_of(root, evaluator.evaluate(root).solid, evaluator)
+    mesh = display_of(result_of(root, evaluator.evaluate(root)), evaluator)
     assert len(mesh.owners) == 15 == len(np.unique(mesh.owner))
     assert mesh.owners[0] == ("n1", 0, "n2", 0, "n3") and mesh.owners[-1] == ("n1", 4, "n2", 2, "n3")
     # Copy i of 5 is turned by i * 72 degrees and copy j of 3 lies 2 j farther out.
@@ -93,7 +93,7 @@ def test_mirror_images_and_instances():
     )
     root = resolve(document).solids[0]
     evaluator = Evaluator()
-    mesh = display_of(root, evaluator.evaluate(root).solid, evaluator)
+    mesh = display_of(result_of(root, evaluator.evaluate(root)), evaluator)
     assert mesh.owners == tuple(("u", i, "d", leaf) for i in "ab" for leaf in "pq")
     assert set(mesh.owner) == {0, 1, 2, 3}
 

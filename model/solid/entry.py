@@ -27,16 +27,25 @@ class Problem:
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """What the memo keeps for a value: the solid in its own axes, or None where it failed, and what there is to say."""
+    """What the memo keeps for a value: the solid in its own axes, or None where it failed, and what there is to say.
+
+    `rest` is for the eye only: what a failed operation is without the operands that failed.
+    """
 
     key: Key
     solid: Manifold | None
     problems: tuple[Problem, ...] = ()
+    rest: Manifold | None = None
+
+    @property
+    def seen(self) -> Manifold | None:
+        """The solid, or the rest of it."""
+        return self.rest if self.solid is None else self.solid
 
     @property
     def bytes(self) -> int:
         """About how much memory the solid takes."""
-        return 400 if self.solid is None else 400 + 150 * self.solid.num_tri()
+        return 400 if self.seen is None else 400 + 150 * self.seen.num_tri()
 
 
 @dataclass(frozen=True, slots=True)

@@ -78,18 +78,20 @@ class Evaluator:
             entry = self._run(Wanted(root, placed_tolerance(tolerance, root.placement), box))
         except Refusal as fault:
             return Entry((root.digest, tolerance, b""), None, (Problem((), str(fault)),))
-        if entry.solid is None:
+        seen = entry.seen
+        if seen is None:
             return entry
-        if box is not None and not entry.solid.is_empty():
-            low, high = np.array(entry.solid.bounding_box()).reshape(2, 3)
+        if box is not None and not seen.is_empty():
+            low, high = np.array(seen.bounding_box()).reshape(2, 3)
             if max(-low.min(), high.max()) > 0.75 * box[1, 0]:
                 return Entry(entry.key, None, (*entry.problems, Problem((), _endless_words(root))))
-        if not root.placement.steps:
-            return entry
         try:
-            return Entry(entry.key, moved(entry.solid, root.placement.matrix()), entry.problems)
+            seen = moved(seen, root.placement.matrix()) if root.placement.steps else seen
         except (NoSolid, Refusal) as fault:
             return Entry(entry.key, None, (*entry.problems, Problem((), str(fault))))
+        if entry.solid is None:
+            return Entry(entry.key, None, entry.problems, seen)
+        return Entry(entry.key, seen, entry.problems)
 
     def _reach(self, root: Node, tolerance: float) -> float:
         """How far from the origin a solid that half-spaces bound can have a vertex, in the root's axes, with room."""
@@ -100,8 +102,8 @@ class Evaluator:
             node, matrix = stack.pop()
             if not self.ends.endless(node):
                 entry = self._run(Wanted(node, tolerance, None))
-                if entry.solid is not None and not entry.solid.is_empty():
-                    bounds = np.array(entry.solid.bounding_box()).reshape(2, 3)
+                if entry.seen is not None and not entry.seen.is_empty():
+                    bounds = np.array(entry.seen.bounding_box()).reshape(2, 3)
                     extent = max(extent, float(np.abs(mapped(bounds, matrix)).max()))
                 continue
             for copy in copies(node):
@@ -201,11 +203,11 @@ class Evaluator:
         inner = None if box is None else box_within(box, matrix)
         entry = yield Wanted(child, tolerance_before(wanted.tolerance, matrix), inner)
         problems += [Problem((*place, *p.place), p.message, p.error) for p in entry.problems]
-        if entry.solid is None:
+        if entry.seen is None:
             return None
         digest, tolerance, cut = entry.key
         key = joint_key(f"{tolerance}", [digest, cut, matrix.tobytes()])
-        operand = Operand(key, entry.solid if matrix is IDENTITY else moved(entry.solid, matrix))
+        operand = Operand(key, entry.seen if matrix is IDENTITY else moved(entry.seen, matrix))
         if entry.bytes < SMALL and not entry.problems:
             if len(self._operands) >= MOST_OPERANDS:
                 self._operands.clear()
@@ -220,11 +222,10 @@ class Evaluator:
         outer: NDArray[np.float64],
         box: Bounds | None,
         problems: list[Problem],
-    ) -> Generator[Wanted, Entry, list[Operand] | None]:
+    ) -> Generator[Wanted, Entry, list[Operand]]:
         """The operands whose union `node` is, those of unions within it included, so that the kernel sees them all at
-        once; None where one failed."""
+        once; without those that failed, of which the problems tell."""
         operands: list[Operand] = []
-        failed = False
         stack = [(place, node, outer)]
         while stack:
             place, node, outer = stack.pop()
@@ -238,10 +239,9 @@ class Evaluator:
                 continue
             limits = box if self.ends.endless(node) else None
             operand = yield from self.operand(wanted, place, node, outer, limits, problems)
-            failed = failed or operand is None
             if operand is not None:
                 operands.append(operand)
-        return None if failed else operands
+        return operands
 
 
 def _endless_words(root: Node) -> str:

@@ -40,90 +40,83 @@ def sound(solid: Manifold, node: Node) -> Manifold:
     return solid
 
 
-def _done(wanted: Wanted, solid: Manifold, problems: list[Problem]) -> Entry:
-    return Entry(wanted.key, sound(solid, wanted.node), distinct(problems))
+def _done(wanted: Wanted, solid: Manifold, problems: list[Problem], empty: str = "") -> Entry:
+    """The entry of a result; where an operand failed, of a failure with a rest. `empty`: what to tell of nothing."""
+    solid = sound(solid, wanted.node)
+    if any(problem.error for problem in problems):
+        return Entry(wanted.key, None, distinct(problems), solid)
+    if empty and solid.is_empty():
+        problems.append(Problem((), empty, False))
+    return Entry(wanted.key, solid, distinct(problems))
 
 
 def union(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
     operands = yield from evaluator.joined(wanted, (), wanted.node, IDENTITY, wanted.box, problems)
-    if operands is None:
-        return Entry(wanted.key, None, distinct(problems))
-    if not operands:
-        problems.append(Problem((), f"“{wanted.node.label}” holds nothing", False))
-    return _done(wanted, forced(union_of(operands, evaluator.remember)), problems)
+    empty = "" if operands else f"“{wanted.node.label}” holds nothing"
+    return _done(wanted, forced(union_of(operands, evaluator.remember)), problems, empty)
 
 
 def difference(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
-    children = wanted.node.children
-    if not children:
-        problems.append(Problem((), f"“{wanted.node.label}” holds nothing", False))
-        return _done(wanted, Manifold(), problems)
-    box = wanted.box if evaluator.ends.endless(children[0]) else None
-    first = yield from evaluator.operand(wanted, (0,), children[0], IDENTITY, box, problems)
+    node = wanted.node
+    if not node.children:
+        return _done(wanted, Manifold(), problems, f"“{node.label}” holds nothing")
+    box = wanted.box if evaluator.ends.endless(node.children[0]) else None
+    first = yield from evaluator.operand(wanted, (0,), node.children[0], IDENTITY, box, problems)
     limits: Bounds | None = None
     tail: list[Operand] = []
-    failed = first is None
-    for place, child in enumerate(children[1:], 1):
+    for place, child in enumerate(node.children[1:], 1):
         if evaluator.ends.endless(child):
             if first is None or first.solid.is_empty():
                 continue
             if limits is None:
                 limits = coarse(np.array(first.solid.bounding_box()).reshape(2, 3))
-        operands = yield from evaluator.joined(wanted, (place,), child, IDENTITY, limits, problems)
-        failed = failed or operands is None
-        tail += operands or ()
-    if failed or first is None:
+        tail += yield from evaluator.joined(wanted, (place,), child, IDENTITY, limits, problems)
+    if first is None:
         return Entry(wanted.key, None, distinct(problems))
-    if evaluator.cuts is not None:
+    if not tail:
+        solid = first.solid
+    elif evaluator.cuts is not None:
         solid = evaluator.cuts.difference_of(first, tail, evaluator.remember)
     else:
-        solid = first.solid - union_of(tail, evaluator.remember) if tail else first.solid
-    solid = forced(solid)
-    if solid.is_empty() and not first.solid.is_empty():
-        problems.append(Problem((), f"“{wanted.node.label}” leaves nothing", False))
-    return _done(wanted, solid, problems)
+        solid = forced(first.solid - union_of(tail, evaluator.remember))
+    return _done(wanted, solid, problems, "" if first.solid.is_empty() else f"“{node.label}” leaves nothing")
 
 
 def intersection(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
-    children = wanted.node.children
+    node = wanted.node
+    if not node.children:
+        return _done(wanted, Manifold(), problems, f"“{node.label}” holds nothing")
     found: dict[int, Operand] = {}
-    failed = False
     limits: Bounds | None = None
+    disjoint = False
     # Bounded operands first: their common box bounds the others.
-    order = sorted(range(len(children)), key=lambda i: evaluator.ends.endless(children[i]))
-    for place in order:
-        child = children[place]
+    for place in sorted(range(len(node.children)), key=lambda i: evaluator.ends.endless(node.children[i])):
+        child = node.children[place]
         endless = evaluator.ends.endless(child)
-        if endless and (failed or (limits is not None and (limits[0] > limits[1]).any())):
-            continue
-        box = (wanted.box if limits is None else coarse(limits)) if endless else None
+        box = (wanted.box if limits is None else coarse(limits)) if endless and not disjoint else None
+        if endless and box is None:
+            continue  # nothing is left of it, or what would have bounded it has failed
         operand = yield from evaluator.operand(wanted, (place,), child, IDENTITY, box, problems)
         if operand is None:
-            failed = True
             continue
         found[place] = operand
-        if not endless:
-            bounds = np.array(operand.solid.bounding_box()).reshape(2, 3)
-            if operand.solid.is_empty():
-                bounds = np.array([[1.0] * 3, [-1.0] * 3])
-            limits = bounds if limits is None else np.array(
-                [np.maximum(limits[0], bounds[0]), np.minimum(limits[1], bounds[1])]
-            )  # fmt: skip
-    if failed:
-        return Entry(wanted.key, None, distinct(problems))
+        if operand.solid.is_empty():
+            disjoint = True
+        elif not endless:
+            low, high = np.array(operand.bounds).reshape(2, 3)
+            if limits is not None:
+                low, high = np.maximum(limits[0], low), np.minimum(limits[1], high)
+            disjoint = disjoint or bool((low > high).any())
+            limits = np.array([low, high])
     solids = [found[place].solid for place in sorted(found)]
-    if len(found) < len(children) or not solids:
+    if disjoint or not solids:
         solid = Manifold()
     else:
         solid = solids[0] if len(solids) == 1 else forced(Manifold.batch_boolean(solids, OpType.Intersect))
-    if not children:
-        problems.append(Problem((), f"“{wanted.node.label}” holds nothing", False))
-    elif solid.is_empty():
-        problems.append(Problem((), f"the operands of “{wanted.node.label}” have nothing in common", False))
-    return _done(wanted, solid, problems)
+    return _done(wanted, solid, problems, f"the operands of “{node.label}” have nothing in common")
 
 
 def around(evaluator: Evaluator, wanted: Wanted) -> Steps:
@@ -137,11 +130,10 @@ def around(evaluator: Evaluator, wanted: Wanted) -> Steps:
         operand = yield from evaluator.operand(wanted, (place,), child, IDENTITY, None, problems)
         if operand is not None:
             operands.append(operand)
-    if len(operands) < len(node.children):
+    if any(problem.error for problem in problems):
         return Entry(wanted.key, None, distinct(problems))
     if not operands:
-        problems.append(Problem((), f"“{node.label}” holds nothing", False))
-        return _done(wanted, Manifold(), problems)
+        return _done(wanted, Manifold(), problems, f"“{node.label}” holds nothing")
     if isinstance(node, Hull):
         solid = Manifold.batch_hull([operand.solid for operand in operands])
     else:

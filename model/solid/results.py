@@ -25,11 +25,15 @@ from .tessellation import DEFAULT_TOLERANCE
 
 @dataclass(frozen=True, slots=True)
 class SolidResult:
-    """One evaluated root: its resolved tree, and the solid in the world's axes or None."""
+    """One evaluated root: its resolved tree, and the solid in the world's axes or None.
+
+    `rest` is what a picture shows of a solid that failed: it without the operands that are to blame.
+    """
 
     root: Node
     solid: Manifold | None
     messages: tuple[Message, ...]
+    rest: Manifold | None = None
 
     def mesh(self) -> Mesh64:
         """The surface; empty where the solid failed."""
@@ -78,9 +82,15 @@ def messages_of(root: Node, entry: Entry) -> tuple[Message, ...]:
     return tuple(dict.fromkeys(found))
 
 
-def display_of(root: Node, solid: Manifold | None, evaluator: Evaluator) -> DisplayMesh | None:
-    """The picture's side of an evaluated root; None where it failed and is no imported surface either."""
+def result_of(root: Node, entry: Entry) -> SolidResult:
+    return SolidResult(root, entry.solid, messages_of(root, entry), entry.rest)
+
+
+def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
+    """The picture's side of an evaluated root; None where nothing of it can be shown."""
+    root = result.root
     found = occurrences(root)
+    solid = result.rest if result.solid is None else result.solid
     if solid is None:
         surface = open_surface(root)
         if surface is None:
@@ -108,7 +118,7 @@ class Evaluation:
         return tuple(result for result in self.solids if result.root.visible)
 
     def display(self, result: SolidResult) -> DisplayMesh | None:
-        return display_of(result.root, result.solid, self.evaluator)
+        return display_of(result, self.evaluator)
 
     def total(self) -> Manifold:
         """The union of the visible solids that have not failed."""
@@ -130,5 +140,5 @@ def evaluate_document(
     for root in Resolver().resolve(document).solids:
         if wanted is None or root.name in wanted:
             entry = evaluator.evaluate(root, tolerance, progress)
-            results.append(SolidResult(root, entry.solid, messages_of(root, entry)))
+            results.append(result_of(root, entry))
     return Evaluation(tuple(results), evaluator)

@@ -105,7 +105,7 @@ def planes_of(root: Node, copies) -> NDArray[np.float64]:
     while stack:
         node, matrix = stack.pop()
         if isinstance(node, Halfspace):
-            normal = np.linalg.inv(matrix[:, :3]).T @ unit(node.normal, "Half-space: the normal")
+            normal = inverse(matrix)[:, :3].T @ unit(node.normal, "Half-space: the normal")
             normal /= np.linalg.norm(normal)
             point = matrix[:, :3] @ np.array(node.point, dtype=np.float64) + matrix[:, 3]
             planes.append(np.append(normal, normal @ point))

@@ -18,7 +18,7 @@ from ..document.table import Reuse, from_table
 from ..document.tree import change, trail
 from ..solid.entry import Superseded
 from ..solid.evaluate import Evaluator
-from ..solid.results import SolidResult, display_of, messages_of
+from ..solid.results import display_of, result_of
 from .shown import Message, shown_key
 
 INTERVAL = 0.1
@@ -87,8 +87,8 @@ class _Worker:
     def _shown(self, root: Node, tolerance: float, progress: _Progress) -> tuple[Any, Any, tuple[Message, ...]]:
         entry = self._evaluator.evaluate(root, tolerance, progress)
         progress.report("drawing")
-        result = SolidResult(root, entry.solid, messages_of(root, entry))
-        return display_of(root, entry.solid, self._evaluator), result.measures(), result.messages
+        result = result_of(root, entry)
+        return display_of(result, self._evaluator), result.measures(), result.messages
 
     def _prepare(self, number: int, table: dict[str, Any], tolerance: float, node_id: str) -> tuple[Any, ...]:
         """Evaluate the solid without one operand, so that what it is cut from is at hand when it moves."""
