@@ -46,9 +46,9 @@ Remember = Callable[[bytes, Callable[[], Manifold]], Manifold]
 """`remember(key, make)`: the kept solid of this key, or a new one that is kept from now on."""
 
 
-def union_of(operands: list[Operand], remember: Remember) -> Manifold:
-    """The union, through a hidden tree where there are many."""
-    while len(operands) > WIDE:
+def union_of(operands: list[Operand], remember: Remember | None = None) -> Manifold:
+    """The union. With `remember`, through a hidden tree where there are many: a change of one then re-cuts little."""
+    while remember is not None and len(operands) > WIDE:
         groups = [operands[i : i + GROUP] for i in range(0, len(operands), GROUP)]
         operands = [_group(group, remember) for group in groups]
     return _union([operand.solid for operand in operands])
@@ -91,7 +91,7 @@ class Cuts:
     def difference_of(self, first: Operand, tail: list[Operand], remember: Remember) -> Manifold:
         """`first` less all of `tail`."""
         if len(tail) < MANY:
-            return first.solid - union_of(tail, remember)
+            return forced(first.solid - union_of(tail))
         wanted = {operand.key: operand for operand in tail}
         last = self._last.pop(first.key, None)
         few = max(1, len(tail) // 16)
@@ -102,7 +102,7 @@ class Cuts:
             if len(gone) + len(new) <= 2 * few:
                 result = self._recut(first, wanted, last, gone, new, remember)
         if result is None:
-            result = forced(first.solid - union_of(tail, remember))
+            result = forced(first.solid - union_of(tail))
         self._last[first.key] = Cut(wanted, result)
         if len(self._last) > self._most:
             self._last.pop(next(iter(self._last)))
@@ -122,17 +122,11 @@ class Cuts:
         base = last.result
         if gone:
             key = joint_key("less", [first.key, *sorted(stay)])
-            base = remember(key, lambda: self._refilled(first, wanted, last, gone, stay, remember))
+            base = remember(key, lambda: self._refilled(first, wanted, last, gone, stay))
         return forced(base - _union([wanted[key].solid for key in new])) if new else base
 
     def _refilled(
-        self,
-        first: Operand,
-        wanted: dict[bytes, Operand],
-        last: Cut,
-        gone: list[bytes],
-        stay: list[bytes],
-        remember: Remember,
+        self, first: Operand, wanted: dict[bytes, Operand], last: Cut, gone: list[bytes], stay: list[bytes]
     ) -> Manifold:
         """What is left when the operands in `gone` no longer cut.
 
@@ -146,7 +140,7 @@ class Cuts:
             expected = last.result.volume() + plug.volume()
             if abs(whole.volume() - expected) <= 1e-12 * abs(expected) + 1e-300:
                 return whole
-        return forced(first.solid - union_of([wanted[key] for key in stay], remember))
+        return forced(first.solid - union_of([wanted[key] for key in stay]))
 
 
 def _apart(these: list[Operand], others: list[Operand]) -> bool:

@@ -35,8 +35,9 @@ MOST_OPERANDS = 1 << 16
 class Evaluator:
     """Evaluates resolved trees and remembers the solids, up to `limit` bytes.
 
-    `incremental` lets a difference of many operands start from the last one like it: right for an editor, where the
-    triangles of a flat face may then depend on the order of the edits; files are written without it.
+    `incremental` cuts wide unions into a hidden tree, and lets a difference of many operands start from the last one
+    like it: right for an editor, where the triangles of a flat face may then depend on the order of the edits; files
+    are written without it.
     `evaluations` counts the entries that were not in the memo.
     """
 
@@ -49,7 +50,8 @@ class Evaluator:
         self._memo: OrderedDict[Key | bytes, Entry | Manifold] = OrderedDict()
         self._operands: dict[tuple[bytes, float, bytes, bytes], Operand] = {}
         self.ends = Ends()
-        self.cuts = Cuts() if incremental else None
+        self.incremental = incremental
+        self.cuts = Cuts()
         self._progress: Callable[[str], None] = lambda label: None
 
     def evaluate(

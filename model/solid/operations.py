@@ -54,7 +54,9 @@ def union(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
     operands = yield from evaluator.joined(wanted, (), wanted.node, IDENTITY, wanted.box, problems)
     empty = "" if operands else f"“{wanted.node.label}” holds nothing"
-    return _done(wanted, forced(union_of(operands, evaluator.remember)), problems, empty)
+    return _done(
+        wanted, forced(union_of(operands, evaluator.remember if evaluator.incremental else None)), problems, empty
+    )
 
 
 def difference(evaluator: Evaluator, wanted: Wanted) -> Steps:
@@ -77,10 +79,10 @@ def difference(evaluator: Evaluator, wanted: Wanted) -> Steps:
         return Entry(wanted.key, None, distinct(problems))
     if not tail:
         solid = first.solid
-    elif evaluator.cuts is not None:
+    elif evaluator.incremental:
         solid = evaluator.cuts.difference_of(first, tail, evaluator.remember)
     else:
-        solid = forced(first.solid - union_of(tail, evaluator.remember))
+        solid = forced(first.solid - union_of(tail))
     return _done(wanted, solid, problems, "" if first.solid.is_empty() else f"“{node.label}” leaves nothing")
 
 
