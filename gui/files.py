@@ -153,7 +153,7 @@ class Files(QObject):
             except Refusal as refusal:
                 self._refused("imported", path, refusal)
                 return
-            self._session.commit(f"Import {path.name}", document, line=f"# import {path.name!r}")
+            self._session.commit(f"Import {path.name}", document, line=f"insert_document(open_document({str(path)!r}))")
             self._remember(path)
 
         self.background.run(

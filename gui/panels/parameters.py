@@ -173,19 +173,10 @@ class Parameters(QWidget):
                 self._do("set_parameter", f"Change {parameter.name}", parameter.name, parameter.value, note=text)
 
     def _rename(self, parameter: Parameter, name: str) -> None:
-        """A new parameter in the place of the old one, as long as nothing uses the old name."""
         if name == parameter.name:
             return
-        document = self._session.document
         try:
-            if any(p.name == name for p in document.parameters):
-                raise Refusal(f"there is a parameter called {name} already")
-            new = parameter.with_(name=name)
-            without = OPERATIONS["delete_parameter"](document, parameter.name)
-            place = document.parameters.index(parameter)
-            kept = without.parameters
-            document = without.with_(parameters=(*kept[:place], new, *kept[place:]))
-            self._session.commit(f"Rename {parameter.name}", document)
+            self._session.do("rename_parameter", parameter.name, name, label=f"Rename {parameter.name}")
         except Refusal as refusal:
             self.refused.emit(sentence(refusal))
             self._fill(self._session.document)

@@ -1,0 +1,94 @@
+"""Every version of the project format has left a file here, and each opens to what it was made from."""
+
+from pathlib import Path
+
+import pytest
+
+from solidtree.model.document.document import Document, Parameter
+from solidtree.model.document.nodes import KINDS, Broken, Node
+from solidtree.model.document.table import same_document
+from solidtree.model.document.tree import numbered, walk
+from solidtree.model.project.assets import default_store
+from solidtree.model.project.project_file import FORMAT
+from solidtree.model.script import (
+    box,
+    circle,
+    cone,
+    cylinder,
+    evaluate,
+    extrude,
+    halfspace,
+    hull,
+    imported_mesh,
+    instance,
+    linear_array,
+    minkowski,
+    mirror,
+    open_document,
+    parameter,
+    polar_array,
+    polygon,
+    polyhedron,
+    rectangle,
+    revolve,
+    save,
+    sphere,
+    torus,
+    union,
+)  # fmt: skip
+
+TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
+PROJECTS = Path(__file__).parent / "projects"
+
+
+def format_1() -> Document:
+    """Every kind of node and step that format 1 knows, with all that can be said of a node."""
+    width = parameter("width", 12, minimum=1, maximum=90, note="of the block", group="size")
+    depth = parameter("depth", width / 2, choices=())
+    block = box(width, depth, "2 in").named("block").coloured("#336699").noted("made of a parameter")
+    tetrahedron = polyhedron([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
+    frame = polygon([(0, 0), (9, 0), (9, 9), (0, 9), (3, 3), (6, 3), (6, 6), (3, 6)], [(0, 1, 2, 3), (4, 5, 6, 7)])
+    round_ones = [
+        sphere(5, segments=24).at(30),
+        cylinder(2, 9, centred=True, tolerance=0.1).turned(x=90).at(y=20),
+        cone(4, 1, 6).scaled(1, 1, 2).mirrored((0, 0, 1)),
+        torus(8, 2).transformed([[1, 0, 0, 5], [0, 1, 0, 6], [0, 0, 1, 7]]),
+    ]
+    solids = [
+        ((block - union(*round_ones)) & halfspace((0, 0, -1), (0, 0, 20))).named("booleans"),
+        linear_array(polar_array(mirror(tetrahedron, keep=False), 5, 180), 2, (0, 0, 30)).named("arrays"),
+        hull(extrude(rectangle(3, 4), 5, twist=30), revolve(circle(1).at(5), angle=90)).named("hull").hidden(),
+        minkowski(extrude(frame, 2, top_scale=0.5, centred=True), box(1)).named("sum"),
+        union(instance("n99"), instance("n99").at(40)).named("instances"),
+        imported_mesh(default_store().put(TETRAHEDRON.encode()), "off", 0, "1 in").named("imported"),
+    ]
+    roots = numbered(solids)
+    definition = (sphere(3) + box(2)).named("shared").with_(id="n99")
+    children = tuple(child.with_(id=f"m{i}") for i, child in enumerate(definition.children))
+    return Document(
+        solids=roots,
+        definitions=(definition.with_(children=children),),
+        parameters=(
+            Parameter("width", 12, 1, 90, note="of the block", group="size"),
+            Parameter("depth", "width / 2"),
+        ),
+        notes="Every kind of node, as format 1 writes it.",
+    )
+
+
+def test_format_1_opens_as_it_was_made():
+    assert same_document(open_document(PROJECTS / "format_1.solidtree"), format_1())
+
+
+def test_the_stored_file_of_the_present_format_knows_every_kind():
+    document = open_document(PROJECTS / f"format_{FORMAT}.solidtree")
+    kinds = {type(node) for node in walk(*document.roots)}
+    assert kinds == set(KINDS.values()) - {Node, Broken}
+
+
+@pytest.mark.parametrize("path", sorted(PROJECTS.glob("*.solidtree")), ids=lambda path: path.stem)
+def test_stored_files_survive_another_save(path, tmp_path):
+    document = open_document(path)
+    save(tmp_path / "again.solidtree", document)
+    assert same_document(open_document(tmp_path / "again.solidtree"), document)
+    assert not [message for message in evaluate(document).messages if message.error]
