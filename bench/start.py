@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -76,7 +77,8 @@ def compare(title: str, ours: str, bare: str, rounds: int, environment: dict[str
 
 
 def main() -> None:
-    environment = {**os.environ, "XDG_CONFIG_HOME": "/nonexistent"}
+    home = tempfile.TemporaryDirectory(prefix="solidtree-bench-")
+    environment = {**os.environ, "XDG_CONFIG_HOME": home.name}
     # The libraries come compiled; ours is so from the second turn on.
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
     print(f"{'':44} {'ours':>8}    {'bare':>8}     ratio")

@@ -162,20 +162,25 @@ def _convert_options(command: argparse.ArgumentParser) -> None:
 
 
 def _export(options: argparse.Namespace) -> int:
-    from ..model.exchange.export import export_document
+    from ..model.exchange.export import solids_to_write
+    from ..model.exchange.meshes_out import check_ending, write_meshes
 
-    document = read(options.file)
     out = Path(options.out)
-    if out.suffix.lower() == ".solidtree":
+    project = out.suffix.lower() == ".solidtree"
+    if not project:
+        _about(options.out, lambda: check_ending(out))
+    document = read(options.file)
+    if project:
         from ..model.project.project_file import save_project
 
         _about(options.out, lambda: save_project(document, out))
         return DONE
     bar = Bar(document)
     try:
-        results = export_document(document, out, options.tolerance, options.solid, bar)
+        results, solids = solids_to_write(document, options.tolerance, options.solid, bar)
     finally:
         bar.end()
+    _about(options.out, lambda: write_meshes(out, solids))
     for message in (message for result in results for message in result.messages):
         print(f"solidtree: {options.file}: {message.message}", file=sys.stderr)
     empty = [result for result in results if result.solid is None or result.solid.is_empty()]

@@ -124,6 +124,9 @@ def test_export_of_one_solid_and_its_tolerance(solidtree, tmp_path):
         assert solidtree("export", tmp_path / "two.solidtree", tmp_path / "ball.stl", *arguments)[0] == 0
         triangles = json.loads(solidtree("info", tmp_path / "ball.stl")[1])["total"]["triangles"]
         assert (triangles < 1000) is few
+    for bad in (tmp_path / "x.foo", tmp_path / "nowhere" / "x.stl"):
+        status, out, err = solidtree("export", tmp_path / "two.solidtree", bad)
+        assert (status, out) == (2, "") and err.startswith(f"solidtree: {bad}: ") and err.count("\n") == 1
     status, out, err = solidtree("export", tmp_path / "two.solidtree", tmp_path / "x.stl", "--solid", "cone")
     assert (status, out) == (2, "") and "“cone”" in err and "“ball”" in err and not (tmp_path / "x.stl").exists()
 

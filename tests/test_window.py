@@ -249,8 +249,10 @@ def test_parameters_by_table_and_slider(driver):
     assert [p.name for p in driver.document.parameters] == ["r", "size"]
     panel.table.item(1, 0).setText("length")
     assert [p.name for p in driver.document.parameters] == ["r", "length"]
+    panel.table.item(0, 0).setText("length")
+    assert "already" in said[-1] and driver.document.parameters[0].name == "r"
     panel.table.item(0, 0).setText("q")
-    assert "used by" in said[-1] and driver.document.parameters[0].name == "r"
+    assert driver.document.parameters[0].name == "q" and driver.document.solids[0].radius.text == "q"
 
 
 def test_save_open_and_the_title(driver, tmp_path):

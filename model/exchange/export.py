@@ -25,6 +25,15 @@ def export_document(
     where a solid failed or nothing is left to write.
     """
     check_ending(path)
+    results, solids = solids_to_write(document, tolerance, solid, progress)
+    write_meshes(path, solids)
+    return results
+
+
+def solids_to_write(
+    document: Document, tolerance: float, solid: str | None, progress: Callable[[str], None] | None = None
+) -> tuple[tuple[SolidResult, ...], list[OutSolid]]:
+    """What was evaluated, and of it what goes into a file. Raises Refusal as `export_document` does."""
     if solid is not None and all(root.name != solid for root in document.solids):
         names = ", ".join(f"“{root.name}”" for root in document.solids)
         raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
@@ -40,5 +49,4 @@ def export_document(
     ]
     if not solids:
         raise Refusal("there is nothing to write: every solid is empty" if results else "the document holds no solid")
-    write_meshes(path, solids)
-    return results
+    return results, solids
