@@ -12,7 +12,8 @@ from ..model.document.document import Document
 from ..model.editing.session import Session, State
 
 if TYPE_CHECKING:
-    from ..model.worker.lane import Lane, LaneMessage
+    from ..model.worker.lane import Lane
+    from ..model.worker.messages import LaneMessage
     from ..model.worker.shown import Shown
 
 PATIENCE = 100  # milliseconds before the window says that it is busy
@@ -167,7 +168,7 @@ class Evaluation(QObject):
             self._patience.start()
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.worker.lane import Cancelled, Died, Evaluated, Progress
+        from ..model.worker.messages import Cancelled, Died, Evaluated, Progress
 
         if self._closed:
             return
@@ -196,7 +197,7 @@ class Evaluation(QObject):
                 self._rest()
 
     def _receive_job(self, message: LaneMessage) -> None:
-        from ..model.worker.lane import Died, Exported, Progress
+        from ..model.worker.messages import Died, Exported, Progress
 
         if self._closed:
             return

@@ -12,7 +12,8 @@ from solidtree.model.document.document import Document
 from solidtree.model.document.tree import change, numbered
 from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
-from solidtree.model.worker.lane import Cancelled, Died, Evaluated, Exported, Lane, Progress, Started
+from solidtree.model.worker.lane import Lane
+from solidtree.model.worker.messages import Cancelled, Died, Evaluated, Exported, Progress, Started
 
 
 class Listener:

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from ..document.document import Document
 from ..document.table import to_table
 from ..solid.tessellation import DEFAULT_TOLERANCE
+from .messages import Cancelled, Died, Evaluated, Exported, LaneMessage, Progress, Started
 from .process import serve
 from .shown import Message, Pictures, Shown
 
@@ -20,62 +21,8 @@ if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
 
-@dataclass(frozen=True, slots=True)
-class Started:
-    """A worker is ready."""
-
-    pid: int
-
-
-@dataclass(frozen=True, slots=True)
-class Progress:
-    """How far a request is: operations done of all, and the name of the one at work."""
-
-    request: int
-    done: int
-    total: int
-    label: str
-
-
-@dataclass(frozen=True, slots=True)
-class Evaluated:
-    """The answer to `Lane.evaluate`; `evaluations` counts the nodes that were not in the worker's memo."""
-
-    request: int
-    shown: Shown
-    seconds: float
-    evaluations: int
-
-
-@dataclass(frozen=True, slots=True)
-class Exported:
-    """The answer to `Lane.export`; `fault` says in words why no file was written."""
-
-    request: int
-    path: str
-    fault: str | None
-
-
-@dataclass(frozen=True, slots=True)
-class Cancelled:
-    """The request was given up because the user asked for it."""
-
-    request: int
-
-
-@dataclass(frozen=True, slots=True)
-class Died:
-    """The worker ended by itself. The request is tried once more; `given_up` says that this was the second time."""
-
-    request: int | None
-    reason: str
-    given_up: bool
-
-
 MOST_DEATHS = 3
 """After so many deaths without a sign of life in between, no further worker is started unasked."""
-
-LaneMessage = Started | Progress | Evaluated | Exported | Cancelled | Died
 
 
 @dataclass(slots=True)

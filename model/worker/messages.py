@@ -1,0 +1,62 @@
+"""What a lane tells: values that are handed to its listener in the lane's own thread."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from .shown import Shown
+
+
+@dataclass(frozen=True, slots=True)
+class Started:
+    """A worker is ready."""
+
+    pid: int
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """How far a request is: operations done of all, and the name of the one at work."""
+
+    request: int
+    done: int
+    total: int
+    label: str
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluated:
+    """The answer to `Lane.evaluate`; `evaluations` counts the nodes that were not in the worker's memo."""
+
+    request: int
+    shown: Shown
+    seconds: float
+    evaluations: int
+
+
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """The answer to `Lane.export`; `fault` says in words why no file was written."""
+
+    request: int
+    path: str
+    fault: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class Cancelled:
+    """The request was given up because the user asked for it."""
+
+    request: int
+
+
+@dataclass(frozen=True, slots=True)
+class Died:
+    """The worker ended by itself. The request is tried once more; `given_up` says that this was the second time."""
+
+    request: int | None
+    reason: str
+    given_up: bool
+
+
+LaneMessage = Started | Progress | Evaluated | Exported | Cancelled | Died
