@@ -204,3 +204,10 @@ def test_a_worker_that_cannot_start_is_not_started_for_ever():
     lane.evaluate(document_of(a=box(1)))  # asked again, it tries again
     assert not listener.wait_for(Died).given_up
     lane.close()
+
+
+def test_a_document_that_cannot_be_told_is_refused_and_the_lane_goes_on(listener):
+    twin = box(1).with_(id="n1")
+    answer = listener.evaluate(Document(solids=(twin, twin.at(3))))
+    assert answer.shown.solids == {} and "n1" in answer.shown.problems[0].message
+    assert listener.evaluate(document_of(a=box(1))).shown.solids["n1"].measures.volume == pytest.approx(1)

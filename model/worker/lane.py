@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..document.document import Document
+from ..document.errors import Refusal
 from ..document.table import to_table
 from ..solid.tessellation import DEFAULT_TOLERANCE
 from .messages import Cancelled, Died, Evaluated, Exported, LaneMessage, Progress, Started
@@ -140,10 +141,15 @@ class Lane:
         while not self._closed:
             if job is None:
                 job = self._next()
-            if job is not None and job.tries == 0 and self._answered_from_pictures(job):
+            try:
+                if job is not None and job.tries == 0 and self._answered_from_pictures(job):
+                    job = None
+                    continue
+                job = self._await(None if job is None else self._sent(job))
+            except Refusal as refusal:  # a document that cannot be told to the worker
+                if job is not None:
+                    self._refuse(job, str(refusal))
                 job = None
-                continue
-            job = self._await(None if job is None else self._sent(job))
         self._end()
 
     def _next(self) -> _Job | None:
@@ -259,13 +265,15 @@ class Lane:
                 self._tell(Exported(number, path, None))
                 return True
             case ("refused", number, reason) if job is not None and number == job.number:
-                if job.word == "export":
-                    self._tell(Exported(number, job.path, reason))
-                elif job.word == "evaluate":
-                    fault = Message("", "", reason, True)
-                    self._tell(Evaluated(number, Shown({}, (fault,)), 0.0, 0))
+                self._refuse(job, reason)
                 return True
         return False
+
+    def _refuse(self, job: _Job, reason: str) -> None:
+        if job.word == "export":
+            self._tell(Exported(job.number, job.path, reason))
+        elif job.word == "evaluate":
+            self._tell(Evaluated(job.number, Shown({}, (Message("", "", reason, True),)), 0.0, 0))
 
     # The process.
 
