@@ -50,7 +50,9 @@ def _guarded(run: Callable[[argparse.Namespace], int], options: argparse.Namespa
     except MemoryError:
         return _complain(about, "there is not enough memory for this")
     except OSError as error:
-        return _complain(error.filename or about, error.strerror or str(error))
+        from ..model.project.disk import reason_of
+
+        return _complain(error.filename or about, reason_of(error))
 
 
 def _complain(about: object, reason: str) -> int:
@@ -182,7 +184,7 @@ def _export(options: argparse.Namespace) -> int:
         bar.end()
     _about(options.out, lambda: write_meshes(out, solids))
     for message in (message for result in results for message in result.messages):
-        print(f"solidtree: {options.file}: {message.message}", file=sys.stderr)
+        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
     empty = [result for result in results if result.solid is None or result.solid.is_empty()]
     return NOT_IN_ORDER if empty else DONE
 

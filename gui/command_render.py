@@ -104,7 +104,7 @@ def render(options: argparse.Namespace) -> int:
     finally:
         bar.end()
     for message in evaluation.messages:
-        print(f"solidtree: {options.file}: {message.message}", file=sys.stderr)
+        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
     shown = [(result, mesh) for result in evaluation.visible if (mesh := evaluation.display(result)) is not None]
     meshes = [mesh for _, mesh in shown]
 
@@ -132,7 +132,9 @@ def render(options: argparse.Namespace) -> int:
     try:
         picture.write_png(options.out, pixels)
     except OSError as error:
-        raise SystemExit(_refused(options.out, error.strerror or str(error))) from None
+        from ..model.project.disk import reason_of
+
+        raise SystemExit(_refused(options.out, reason_of(error))) from None
     fine = len(shown) == len(evaluation.visible) and any(len(mesh.triangles) for mesh in meshes)
     return DONE if fine else NOT_IN_ORDER
 

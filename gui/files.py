@@ -46,6 +46,7 @@ class Files(QObject):
         self._settings = settings
         self._thumbnail = thumbnail
         self.path: Path | None = None
+        self._turn = 0  # how many documents have been opened
         self.background = Background(self)
         evaluation.exported.connect(self._exported)
 
@@ -78,21 +79,29 @@ class Files(QObject):
         An example is opened without its file, so that saving asks for a place.
         """
         path = Path(path)
+        before = self._session.state.document
 
         def work() -> Document:
             from ..model.exchange.meshes_in import read_any
 
             return read_any(path)
 
-        def done(document: Document) -> None:
+        def show(document: Document) -> None:
             self._show(document, path if path.suffix.lower() == PROJECT and not example else None)
             if not example:
                 self._remember(path)
+
+        def done(document: Document) -> None:
+            if self._session.state.document is before:
+                show(document)
+            else:  # edited while the file was read
+                self.guard(lambda: show(document))
 
         self.background.run(f"Opening {path.name}", work, done, lambda refusal: self._refused("opened", path, refusal))
 
     def _show(self, document: Document, path: Path | None) -> None:
         self.path = path
+        self._turn += 1
         self._session.open(document)
         self.opened.emit()
         self.path_changed.emit()
@@ -115,7 +124,7 @@ class Files(QObject):
         if path.suffix.lower() != PROJECT:
             path = path.with_name(path.name + PROJECT)
         self._session.cancel()
-        document, picture = self._session.document, self._thumbnail()
+        document, picture, turn = self._session.document, self._thumbnail(), self._turn
 
         def work() -> None:
             from ..model.project.project_file import save_project
@@ -123,13 +132,14 @@ class Files(QObject):
             save_project(document, path, picture)
 
         def done(_: None) -> None:
-            self.path = path
             self._remember(path)
-            self._session.mark_saved(document)
-            self.path_changed.emit()
             self.notice.emit(f"Saved {path.name}")
+            if turn == self._turn:  # else another document has been opened meanwhile
+                self.path = path
+                self._session.mark_saved(document)
+                self.path_changed.emit()
             if then is not None:
-                then()
+                self.guard(then)  # what was edited while the file was written is asked about again
 
         self.background.run(f"Saving {path.name}", work, done, lambda refusal: self._refused("saved", path, refusal))
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from html import escape
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
@@ -62,6 +63,8 @@ class StatusBar(QStatusBar):
         self.problem.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
         self.problem.clicked.connect(self.problems_asked)
         self.problem.hide()
+        self._problem = ""
+        self.messageChanged.connect(self._follow_message)
         self.addWidget(self.problem)
         self.addWidget(self.hover, 1)
         self.measures = QLabel(self)
@@ -125,11 +128,16 @@ class StatusBar(QStatusBar):
 
     def set_problem(self, text: str) -> None:
         """The first error, for as long as it lasts; "" where all is well."""
-        self.problem.setVisible(bool(text))
+        self._problem = text
+        self._follow_message()
         if text:
             self.problem.setIcon(severity_icon(True))
             self.problem.setText(self.problem.fontMetrics().elidedText(text, Qt.TextElideMode.ElideRight, 520))
-            self.problem.setToolTip(f"{text}<br>Click to see all problems")
+            self.problem.setToolTip(f"{escape(text)}<br>Click to see all problems")
+
+    def _follow_message(self) -> None:
+        # A passing message has the place to itself.
+        self.problem.setVisible(bool(self._problem) and not self.currentMessage())
 
     def set_measures(self, words: str, solids: list[Any]) -> None:
         """Sums over measured solids; empty where there are none."""

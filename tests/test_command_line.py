@@ -4,6 +4,7 @@ import json
 import math
 import subprocess
 import sys
+import zipfile
 
 import numpy as np
 import pytest
@@ -231,6 +232,7 @@ def test_render_of_nothing_is_not_in_order(solidtree, tmp_path):
 def test_measuring_a_project_loads_neither_qt_nor_vtk_nor_trimesh(dumbbell):
     code = """
 import sys
+import zipfile
 from solidtree.gui.command_line import main
 status = main(["info", sys.argv[1]])
 heavy = ("PySide6", "vtkmodules", "pyvista", "trimesh", "scipy")
@@ -257,3 +259,29 @@ def test_help_at_every_level():
     for words in (("--help",), ("info", "--help"), ("render", "--help")):
         done = process(*words)
         assert done.returncode == 0 and "usage" in done.stdout and done.stderr == ""
+
+
+def test_export_leaves_out_a_hidden_solid_of_the_same_name(solidtree, tmp_path):
+    table = {
+        "format": 1,
+        "nodes": {"n1": {"kind": "Sphere", "name": "a", "visible": False}, "n2": {"kind": "Box", "name": "a"}},
+        "solids": ["n1", "n2"],
+    }
+    with zipfile.ZipFile(tmp_path / "twins.solidtree", "w") as archive:
+        archive.writestr("document.json", json.dumps(table))
+    assert solidtree("export", tmp_path / "twins.solidtree", tmp_path / "out.obj")[0] == 0
+    assert json.loads(solidtree("info", tmp_path / "out.obj")[1])["total"]["volume"] == pytest.approx(8000)
+
+
+def test_a_parameter_that_is_missing_is_named_by_export(solidtree, tmp_path):
+    table = {"format": 1, "nodes": {"n1": {"kind": "Sphere", "radius": "=w"}}, "solids": ["n1"]}
+    with zipfile.ZipFile(tmp_path / "lost.solidtree", "w") as archive:
+        archive.writestr("document.json", json.dumps(table))
+    status, _, err = solidtree("export", tmp_path / "lost.solidtree", tmp_path / "out.obj")
+    assert status == 2 and "no parameter called w" in err
+
+
+def test_huge_numbers_are_told_in_one_line(solidtree, tmp_path):
+    save(tmp_path / "huge.solidtree", a=sphere(1e300))
+    status, out, err = solidtree("info", tmp_path / "huge.solidtree")
+    assert status == 1 and err == "" and json.loads(out)["solids"][0]["volume"] is None

@@ -269,3 +269,48 @@ def test_of_what_failed_the_rest_is_still_to_be_seen():
     for tree in (bad, bad - box(1), union(bad) & bad, hull(union(box(1), bad), box(1))):
         entry = Evaluator().evaluate(tree)
         assert entry.solid is None and (entry.rest is None or entry.rest.is_empty())
+
+
+def test_moving_a_dimple_on_a_face_leaves_nothing_behind():
+    """A sphere centred on a face, put back and moved, once left a membrane of no volume where it had been."""
+    holes = [cylinder(1, 12, segments=12).at(5 + 8 * i, 5 + 8 * j, -1) for i in range(12) for j in range(4)]
+    evaluator = Evaluator(incremental=True)
+    for x in (20, 40, 41, 20):
+        tree = difference(box(100, 60, 10), *holes, sphere(5, segments=32).at(x, 50, 0))
+        warm, cold = evaluator.evaluate(tree).solid, Evaluator().evaluate(tree).solid
+        assert warm.surface_area() == pytest.approx(cold.surface_area(), rel=1e-9)
+        assert warm.volume() == pytest.approx(cold.volume(), rel=1e-12)
+
+
+@pytest.mark.parametrize("size", [1e-320, 1e-300, 1e-30, 1e15, 1e154, 1e300, 1.7e308])
+def test_numbers_of_any_size_are_answered_in_words_or_with_a_solid(size):
+    evaluator = Evaluator()
+    for node in (
+        sphere(size), Torus(radius=size, tube_radius=1), cylinder(size, 1), sphere(10).scaled(size),
+        sphere(10).at(size), sphere(10).scaled(size, 1, 1), sphere(10, tolerance=max(size, 1e-3)),
+        Extrude(children=(Circle(radius=size),)),
+        Extrude(children=(Rectangle(),), twist=size, segments=8), box(size) & Halfspace(point=(size, 0, 0)),
+        union(box(1).at(size, size).scaled(1e10)),
+    ):  # fmt: skip
+        for tree in (node, union(node, box(1))):
+            entry = evaluator.evaluate(tree, 0.5)
+            if entry.solid is None:
+                assert any(problem.error for problem in entry.problems)
+            else:
+                assert math.isfinite(entry.solid.volume())
+
+
+def test_what_is_kept_holds_no_name():
+    evaluator = Evaluator()
+    tree = box(1) - box(5)
+    for name in ("part", "bracket"):
+        (problem,) = evaluator.evaluate(tree.named(name)).problems
+        assert problem.message == "nothing is left of the first operand"
+
+
+def test_operands_that_change_all_the_time_are_not_kept_for_ever():
+    evaluator = Evaluator(limit=1 << 20)
+    for i in range(200):
+        evaluator.evaluate(union(sphere(5 + i / 1000, segments=32), box(1)))
+    kept = sum(operand.solid.num_tri() for operand in evaluator._operands.values())
+    assert kept * 150 <= (1 << 20) / 4

@@ -12,6 +12,7 @@ from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Difference, Intersection, Union
 from solidtree.model.document.primitives import Box, Cylinder, Halfspace, Sphere
 from solidtree.model.editing.commands import DOCUMENT_COMMANDS
+from solidtree.model.script import save
 
 pytest_plugins = ["window_driver"]
 CTRL = Qt.KeyboardModifier.ControlModifier
@@ -446,3 +447,31 @@ def test_an_unexpected_error_is_told_calmly(driver, capsys, monkeypatch):
     (dialog,) = [w for w in QApplication.topLevelWidgets() if w.objectName() == "report"]
     assert "planted" in capsys.readouterr().err and driver.window.isVisible()
     dialog.close()
+
+
+def test_what_is_edited_while_a_file_opens_is_asked_about(driver, tmp_path):
+    save(tmp_path / "other.solidtree", saved=Box())
+    driver.window.files.read(tmp_path / "other.solidtree")
+    driver.session.do("insert", Sphere())  # before the answer of the reading thread can come
+    box = message(driver)
+    driver.qtbot.mouseClick(box.button(QMessageBox.StandardButton.Cancel), Qt.MouseButton.LeftButton)
+    assert [root.kind for root in driver.document.solids] == ["Sphere"] and driver.session.modified
+
+
+def test_what_is_edited_while_a_file_is_saved_is_asked_about(driver, tmp_path):
+    files = driver.window.files
+    driver.session.do("insert", Box())
+    files.write(tmp_path / "first.solidtree", then=lambda: files._show(Document(), None))
+    driver.session.do("insert", Sphere())
+    box = message(driver)
+    driver.qtbot.mouseClick(box.button(QMessageBox.StandardButton.Cancel), Qt.MouseButton.LeftButton)
+    assert len(driver.document.solids) == 2 and driver.session.modified
+
+
+def test_a_slow_save_does_not_give_its_path_to_the_next_document(driver, tmp_path):
+    files = driver.window.files
+    driver.session.do("insert", Box())
+    files.write(tmp_path / "first.solidtree")
+    files._show(Document(), None)
+    driver.qtbot.waitUntil(lambda: (tmp_path / "first.solidtree").exists() and not files.background.working)
+    assert files.path is None

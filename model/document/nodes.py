@@ -304,6 +304,11 @@ class Broken(Node):
     title: ClassVar[str] = "Broken"
     operands: ClassVar[tuple[int, int | None]] = (0, None)
     message: str = fields.text("", "Message")
+    stands_for: str = fields.text("", "Kind")
+
+    @property
+    def label(self) -> str:
+        return self.name or self.stands_for
 
 
 def range_fault(node: Node) -> str | None:

@@ -108,7 +108,9 @@ def _alike(old: Node, new: Node) -> bool:
 
 
 def _broken(node: Node, message: str, children: tuple[Node, ...] = ()) -> Broken:
-    return Broken(id=node.id, name=node.label, visible=node.visible, message=message, children=children)
+    return Broken(
+        id=node.id, name=node.name, visible=node.visible, message=message, stands_for=node.title, children=children
+    )
 
 
 def resolve(document: Document) -> Resolved:

@@ -37,7 +37,7 @@ def solids_to_write(
     if solid is not None and all(root.name != solid for root in document.solids):
         names = ", ".join(f"“{root.name}”" for root in document.solids)
         raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
-    wanted = [root.name for root in document.solids if root.visible] if solid is None else [solid]
+    wanted = [root.id for root in document.solids if (root.visible if solid is None else root.name == solid)]
     results = evaluate_document(document, tolerance, wanted, progress=progress).solids
     for result in results:
         if result.solid is None:

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from hashlib import blake2b
 
-import numpy as np
 from manifold3d import Manifold, OpType
 
 WIDE = 64
@@ -25,14 +24,6 @@ class Operand:
 
     key: bytes
     solid: Manifold
-    _bounds: tuple[float, ...] | None = None
-
-    @property
-    def bounds(self) -> tuple[float, ...]:
-        """The least and the greatest x, y, z."""
-        if self._bounds is None:
-            self._bounds = self.solid.bounding_box()
-        return self._bounds
 
 
 def joint_key(word: str, keys: list[bytes]) -> bytes:
@@ -122,36 +113,5 @@ class Cuts:
         base = last.result
         if gone:
             key = joint_key("less", [first.key, *sorted(stay)])
-            base = remember(key, lambda: self._refilled(first, wanted, last, gone, stay))
+            base = remember(key, lambda: forced(first.solid - union_of([wanted[k] for k in stay])))
         return forced(base - _union([wanted[key].solid for key in new])) if new else base
-
-    def _refilled(
-        self, first: Operand, wanted: dict[bytes, Operand], last: Cut, gone: list[bytes], stay: list[bytes]
-    ) -> Manifold:
-        """What is left when the operands in `gone` no longer cut.
-
-        Where those lie apart from all that stay, their share of `first` is put back, which is (A - B) + (A & B) = A;
-        the volumes tell whether that came out right. Else everything that stays is cut again.
-        """
-        plugs = [last.tail[key] for key in gone]
-        if _apart(plugs, [wanted[key] for key in stay]):
-            plug = first.solid ^ _union([operand.solid for operand in plugs])
-            whole = last.result + plug
-            expected = last.result.volume() + plug.volume()
-            if abs(whole.volume() - expected) <= 1e-12 * abs(expected) + 1e-300:
-                return whole
-        return forced(first.solid - union_of([wanted[key] for key in stay]))
-
-
-def _apart(these: list[Operand], others: list[Operand]) -> bool:
-    """Whether the boxes of the first are clear of all boxes of the second."""
-    if not others:
-        return True
-    boxes = np.array([other.bounds for other in others])
-    low, high = boxes[:, :3], boxes[:, 3:]
-    for this in these:
-        box = np.array(this.bounds)
-        margin = 1e-6 * float(np.max(box[3:] - box[:3]))
-        if ((low <= box[3:] + margin) & (high >= box[:3] - margin)).all(axis=1).any():
-            return False
-    return True

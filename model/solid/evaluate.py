@@ -27,9 +27,10 @@ from .operations import JOINING, OPERATIONS, sound
 from .tessellation import DEFAULT_TOLERANCE
 from .unbounded import Ends, bounding_reach, box_within, halfspace_box, mapped, planes_of
 
+ENDLESS = "goes on without end: intersect the half-space with something that has one"
+OVERFLOW = "the numbers are too large or too small to make a solid of"
 SMALL = 1 << 20
-MOST_OPERANDS = 1 << 16
-"""Placed operands below SMALL bytes are kept, MOST_OPERANDS of them: a wide operation has thousands."""
+"""Placed operands below so many bytes are kept, up to an eighth of the memo's limit: a wide operation has thousands."""
 
 
 class Evaluator:
@@ -49,6 +50,7 @@ class Evaluator:
         self._held = 0
         self._memo: OrderedDict[Key | bytes, Entry | Manifold] = OrderedDict()
         self._operands: dict[tuple[bytes, float, bytes, bytes], Operand] = {}
+        self._operand_bytes = 0
         self.ends = Ends()
         self.incremental = incremental
         self.cuts = Cuts()
@@ -65,9 +67,16 @@ class Evaluator:
         `progress(label)` is called when a node is done, with the name of the next, and may raise Superseded to stop.
         """
         self._progress = progress or (lambda label: None)
+        with np.errstate(all="ignore"):  # what overflows is told in words
+            try:
+                return self._evaluated(root, tolerance)
+            except (ArithmeticError, ValueError, np.linalg.LinAlgError):
+                return Entry((root.digest, tolerance, b""), None, (Problem((), OVERFLOW),))
+
+    def _evaluated(self, root: Node, tolerance: float) -> Entry:
         count = occurrence_count(root)
         if count > MOST_OCCURRENCES:
-            fault = f"“{root.label}” unfolds to {count:,} parts; at most {MOST_OCCURRENCES:,} are made"
+            fault = f"unfolds to {count:,} parts; at most {MOST_OCCURRENCES:,} are made"
             return Entry((root.digest, tolerance, b""), None, (Problem((), fault),))
         box = None
         if self.ends.endless(root):
@@ -86,9 +95,9 @@ class Evaluator:
         if box is not None and not seen.is_empty():
             low, high = np.array(seen.bounding_box()).reshape(2, 3)
             if max(-low.min(), high.max()) > 0.75 * box[1, 0]:
-                return Entry(entry.key, None, (*entry.problems, Problem((), _endless_words(root))))
+                return Entry(entry.key, None, (*entry.problems, Problem((), ENDLESS)))
         try:
-            seen = moved(seen, root.placement.matrix()) if root.placement.steps else seen
+            seen = sound(moved(seen, root.placement.matrix()), root) if root.placement.steps else seen
         except (NoSolid, Refusal) as fault:
             return Entry(entry.key, None, (*entry.problems, Problem((), str(fault))))
         if entry.solid is None:
@@ -127,6 +136,8 @@ class Evaluator:
                 answer = stop.value
             except (NoSolid, Refusal) as fault:
                 answer = Entry(key, None, (Problem((), str(fault)),))
+            except (ArithmeticError, ValueError, np.linalg.LinAlgError):
+                answer = Entry(key, None, (Problem((), OVERFLOW),))
             else:
                 answer = self._kept(asked)
                 if answer is None:
@@ -174,7 +185,7 @@ class Evaluator:
         if fault:
             raise NoSolid(fault)
         if isinstance(node, OUTLINES):
-            raise NoSolid(f"“{node.label}” is flat; extrude or revolve it to make a solid")
+            raise NoSolid(f"{node.title}: an outline is flat; extrude or revolve it to make a solid")
         operation = OPERATIONS.get(type(node))
         if operation is not None:
             return (yield from operation(self, wanted))
@@ -211,8 +222,10 @@ class Evaluator:
         key = joint_key(f"{tolerance}", [digest, cut, matrix.tobytes()])
         operand = Operand(key, entry.seen if matrix is IDENTITY else moved(entry.seen, matrix))
         if entry.bytes < SMALL and not entry.problems:
-            if len(self._operands) >= MOST_OPERANDS:
+            self._operand_bytes += entry.bytes
+            if self._operand_bytes > self._limit // 8:
                 self._operands.clear()
+                self._operand_bytes = entry.bytes
             self._operands[known] = operand
         return operand
 
@@ -244,7 +257,3 @@ class Evaluator:
             if operand is not None:
                 operands.append(operand)
         return operands
-
-
-def _endless_words(root: Node) -> str:
-    return f"“{root.label}” goes on without end: intersect the half-space with something that has one"

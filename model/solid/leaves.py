@@ -29,7 +29,7 @@ from ..document.primitives import (
     Torus,
 )  # fmt: skip
 from .failure import NoSolid, words
-from .tessellation import MAX_SEGMENTS, circle_segments, sphere_segments
+from .tessellation import MAX_SEGMENTS, MAX_SURFACE_SEGMENTS, circle_segments, sphere_segments
 
 
 def _wanted(node: Node, tolerance: float) -> tuple[int | None, float]:
@@ -84,8 +84,9 @@ def solid_of_torus(node: Torus, tolerance: float) -> Manifold:
     radius, tube = float(node.radius), float(node.tube_radius)
     segments, tolerance = _wanted(node, tolerance)
     # Around the axis and around the tube each may use half of the tolerance.
-    around = segments or circle_segments(radius + tube, tolerance / 2)
-    section = CrossSection.circle(tube, segments or circle_segments(tube, tolerance / 2)).translate((radius, 0))
+    around = segments or min(circle_segments(radius + tube, tolerance / 2), MAX_SURFACE_SEGMENTS)
+    tubular = segments or min(circle_segments(tube, tolerance / 2), MAX_SURFACE_SEGMENTS)
+    section = CrossSection.circle(tube, tubular).translate((radius, 0))
     return section.revolve(around)
 
 
@@ -211,9 +212,9 @@ def solid_of_extrude(node: Extrude, tolerance: float) -> Manifold:
                 float(np.linalg.norm(np.roll(c, -1, axis=0) - c, axis=1).max()) for c in section.to_polygons()
             )
             wanted = math.radians(abs(twist)) * longest / (4 * _wanted(node, tolerance)[1])
-            divisions = min(max(divisions, math.ceil(wanted)), MAX_SEGMENTS)
+            divisions = max(divisions, math.ceil(wanted))
     scale = float(node.top_scale)
-    solid = Manifold.extrude(section, height, divisions, twist, (scale, scale))
+    solid = Manifold.extrude(section, height, min(divisions, MAX_SEGMENTS), twist, (scale, scale))
     return solid.translate((0, 0, -height / 2)).as_original() if node.centred else solid
 
 
@@ -230,7 +231,7 @@ def solid_of_revolve(node: Revolve, tolerance: float) -> Manifold:
 @singledispatch
 def section_of(node: Node, tolerance: float) -> CrossSection:
     """The outline's area in its own plane, placed. Raises NoSolid."""
-    raise NoSolid(f"“{node.label}” is a solid; an outline is needed here")
+    raise NoSolid(f"{node.title}: a solid stands where an outline is needed")
 
 
 def _placed(section: CrossSection, placement: Placement) -> CrossSection:

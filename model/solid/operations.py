@@ -29,14 +29,22 @@ from .unbounded import coarse
 if TYPE_CHECKING:
     from .evaluate import Evaluator
 
+LARGEST = 1e9
+NOTHING = "holds nothing"
+"""Messages are kept with the value, which has no name: they must make sense behind any."""
+
 JOINING = (Union, LinearArray, PolarArray, Mirror, Instance)
 """Kinds whose value is the union of (copies of) their operands."""
 
 
 def sound(solid: Manifold, node: Node) -> Manifold:
-    """The solid, if the kernel made one. Raises NoSolid."""
+    """The solid, if the kernel made one of a size that can be reckoned with. Raises NoSolid."""
     if solid.status() != Error.NoError:
         raise NoSolid(f"{node.title}: {words(solid.status())}")
+    if not solid.is_empty() and not np.abs(solid.bounding_box()).max() <= LARGEST:
+        raise NoSolid(
+            f"{node.title}: reaches farther than {LARGEST:g} mm from the origin; that is too large to be exact"
+        )
     return solid
 
 
@@ -53,7 +61,7 @@ def _done(wanted: Wanted, solid: Manifold, problems: list[Problem], empty: str =
 def union(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
     operands = yield from evaluator.joined(wanted, (), wanted.node, IDENTITY, wanted.box, problems)
-    empty = "" if operands else f"“{wanted.node.label}” holds nothing"
+    empty = "" if operands else NOTHING
     return _done(
         wanted, forced(union_of(operands, evaluator.remember if evaluator.incremental else None)), problems, empty
     )
@@ -63,7 +71,7 @@ def difference(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
     node = wanted.node
     if not node.children:
-        return _done(wanted, Manifold(), problems, f"“{node.label}” holds nothing")
+        return _done(wanted, Manifold(), problems, NOTHING)
     box = wanted.box if evaluator.ends.endless(node.children[0]) else None
     first = yield from evaluator.operand(wanted, (0,), node.children[0], IDENTITY, box, problems)
     limits: Bounds | None = None
@@ -83,14 +91,14 @@ def difference(evaluator: Evaluator, wanted: Wanted) -> Steps:
         solid = evaluator.cuts.difference_of(first, tail, evaluator.remember)
     else:
         solid = forced(first.solid - union_of(tail))
-    return _done(wanted, solid, problems, "" if first.solid.is_empty() else f"“{node.label}” leaves nothing")
+    return _done(wanted, solid, problems, "" if first.solid.is_empty() else "nothing is left of the first operand")
 
 
 def intersection(evaluator: Evaluator, wanted: Wanted) -> Steps:
     problems: list[Problem] = []
     node = wanted.node
     if not node.children:
-        return _done(wanted, Manifold(), problems, f"“{node.label}” holds nothing")
+        return _done(wanted, Manifold(), problems, NOTHING)
     found: dict[int, Operand] = {}
     limits: Bounds | None = None
     disjoint = False
@@ -108,7 +116,7 @@ def intersection(evaluator: Evaluator, wanted: Wanted) -> Steps:
         if operand.solid.is_empty():
             disjoint = True
         elif not endless:
-            low, high = np.array(operand.bounds).reshape(2, 3)
+            low, high = np.array(operand.solid.bounding_box()).reshape(2, 3)
             if limits is not None:
                 low, high = np.maximum(limits[0], low), np.minimum(limits[1], high)
             disjoint = disjoint or bool((low > high).any())
@@ -118,7 +126,7 @@ def intersection(evaluator: Evaluator, wanted: Wanted) -> Steps:
         solid = Manifold()
     else:
         solid = solids[0] if len(solids) == 1 else forced(Manifold.batch_boolean(solids, OpType.Intersect))
-    return _done(wanted, solid, problems, f"the operands of “{node.label}” have nothing in common")
+    return _done(wanted, solid, problems, "the operands have nothing in common")
 
 
 def around(evaluator: Evaluator, wanted: Wanted) -> Steps:
@@ -128,14 +136,15 @@ def around(evaluator: Evaluator, wanted: Wanted) -> Steps:
     node = wanted.node
     for place, child in enumerate(node.children):
         if evaluator.ends.endless(child):
-            raise NoSolid(f"“{child.label}” goes on without end; a {node.title.lower()} needs solids that end")
+            problems.append(Problem((place,), f"goes on without end; a {node.title.lower()} needs solids that end"))
+            continue
         operand = yield from evaluator.operand(wanted, (place,), child, IDENTITY, None, problems)
         if operand is not None:
             operands.append(operand)
     if any(problem.error for problem in problems):
         return Entry(wanted.key, None, distinct(problems))
     if not operands:
-        return _done(wanted, Manifold(), problems, f"“{node.label}” holds nothing")
+        return _done(wanted, Manifold(), problems, NOTHING)
     if isinstance(node, Hull):
         solid = Manifold.batch_hull([operand.solid for operand in operands])
     else:

@@ -129,16 +129,16 @@ class Evaluation:
 def evaluate_document(
     document: Document,
     tolerance: float = DEFAULT_TOLERANCE,
-    names: Iterable[str] | None = None,
+    ids: Iterable[str] | None = None,
     evaluator: Evaluator | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Evaluation:
-    """Evaluate a document's solids (all, or those of these names)."""
+    """Evaluate a document's solids (all, or the roots with these ids)."""
     evaluator = evaluator or Evaluator()
-    wanted = None if names is None else set(names)
+    wanted = None if ids is None else set(ids)
     results = []
     for root in Resolver().resolve(document).solids:
-        if wanted is None or root.name in wanted:
+        if wanted is None or root.id in wanted:
             entry = evaluator.evaluate(root, tolerance, progress)
             results.append(result_of(root, entry))
     return Evaluation(tuple(results), evaluator)

@@ -6,13 +6,15 @@ import math
 
 DEFAULT_TOLERANCE = 0.05
 MAX_SEGMENTS = 4096
+MAX_SURFACE_SEGMENTS = 1024
+"""Where facets go both ways, their number is a product: half a million for a sphere."""
 
 
 def circle_segments(radius: float, tolerance: float) -> int:
-    """Facets around a full turn: the sagitta r (1 - cos(pi / n)) is at most `tolerance`; a multiple of four, from 8."""
+    """Facets around a full turn: the sagitta r (1 - cos(pi / n)) is at most `tolerance`; by fours, 8 to 4096."""
     if tolerance >= radius:
         return 8
-    return _even(math.pi / math.acos(1 - tolerance / radius))
+    return _even(math.pi / (2 * math.asin(math.sqrt(tolerance / radius / 2))))
 
 
 def sphere_segments(radius: float, tolerance: float) -> int:
@@ -20,8 +22,8 @@ def sphere_segments(radius: float, tolerance: float) -> int:
 
     The constant is the largest over n = 8 ... 512, measured from the facets' planes.
     """
-    return _even(math.sqrt(13.5 * radius / tolerance))
+    return _even(math.sqrt(13.5 * radius / tolerance), MAX_SURFACE_SEGMENTS)
 
 
-def _even(wanted: float) -> int:
-    return min(MAX_SEGMENTS, max(8, 4 * math.ceil(wanted / 4 - 1e-9)))
+def _even(wanted: float, most: int = MAX_SEGMENTS) -> int:
+    return max(8, 4 * math.ceil(min(wanted, most) / 4 - 1e-9))

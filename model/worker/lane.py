@@ -296,7 +296,8 @@ class Lane:
         if self._process is not None:
             self._process.kill()
             self._process.join()
-            self._process.close()
+            with contextlib.suppress(ValueError):  # somebody else waited for it first
+                self._process.close()
             self._process = None
 
 
