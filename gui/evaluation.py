@@ -152,7 +152,8 @@ class Evaluation(QObject):
         """Let the worker cut what does not depend on the selected node, so that dragging its values is quick."""
         selection = self._session.selection
         if self.lane is not None and not self.waiting and not self._session.previewing and len(selection) == 1:
-            self.lane.prepare(self._session.document, selection[0], PREVIEW * self._tolerance())
+            tolerance = self._tolerance()
+            self.lane.prepare(self._session.document, selection[0], (tolerance, PREVIEW * tolerance))
 
     def _tolerance(self) -> float:
         from ..model.solid.tessellation import DEFAULT_TOLERANCE

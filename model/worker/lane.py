@@ -35,6 +35,7 @@ class _Job:
     path: str = ""
     solid: str | None = None
     tries: int = 0
+    tolerances: tuple[float, ...] = ()
 
 
 class Lane:
@@ -95,11 +96,13 @@ class Lane:
         self._wake()
         return number
 
-    def prepare(self, document: Document, node_id: str, tolerance: float = DEFAULT_TOLERANCE) -> None:
+    def prepare(self, document: Document, node_id: str, tolerances: tuple[float, ...] = (DEFAULT_TOLERANCE,)) -> None:
         """Get ready for changes of one operand, while nothing else is asked for: the rest is cut without it."""
         with self._lock:
             self._number += 1
-            self._preparation = _Job(self._number, "prepare", document, tolerance, solid=node_id)
+            self._preparation = _Job(
+                self._number, "prepare", document, tolerances[0], solid=node_id, tolerances=tolerances
+            )
         self._wake()
 
     def cancel(self) -> None:
@@ -179,7 +182,7 @@ class Lane:
         if job.word == "evaluate":
             request: tuple[Any, ...] = ("evaluate", job.number, table, job.tolerance, self._pictures.keys())
         elif job.word == "prepare":
-            request = ("prepare", job.number, table, job.tolerance, job.solid)
+            request = ("prepare", job.number, table, job.tolerances, job.solid)
         else:
             request = ("export", job.number, table, job.path, job.tolerance, job.solid)
         assert self._connection is not None

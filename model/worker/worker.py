@@ -90,7 +90,9 @@ class _Worker:
         result = result_of(root, entry)
         return display_of(result, self._evaluator), result.measures(), result.messages
 
-    def _prepare(self, number: int, table: dict[str, Any], tolerance: float, node_id: str) -> tuple[Any, ...]:
+    def _prepare(
+        self, number: int, table: dict[str, Any], tolerances: tuple[float, ...], node_id: str
+    ) -> tuple[Any, ...]:
         """Evaluate the solid without one operand, so that what it is cut from is at hand when it moves."""
         document = from_table(table, self._reuse)
         above = trail(document, node_id)[:-1]
@@ -98,7 +100,8 @@ class _Worker:
             without = change(document, node_id, lambda node: None)
             place = next(i for i, root in enumerate(without.solids) if root.id == above[0].id)
             root = self._resolver.resolve(without).solids[place]
-            self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, len(table["nodes"])))
+            for tolerance in tolerances:
+                self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, len(table["nodes"])))
         return "prepared", number
 
     def _export(
