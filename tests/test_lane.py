@@ -211,3 +211,10 @@ def test_a_document_that_cannot_be_told_is_refused_and_the_lane_goes_on(listener
     answer = listener.evaluate(Document(solids=(twin, twin.at(3))))
     assert answer.shown.solids == {} and "n1" in answer.shown.problems[0].message
     assert listener.evaluate(document_of(a=box(1))).shown.solids["n1"].measures.volume == pytest.approx(1)
+
+
+def test_an_unforeseen_fault_is_told_and_the_lane_goes_on(listener, capfd):
+    request = listener.lane.evaluate("no document at all")
+    died = listener.wait_for(Died, request=request)
+    assert died.given_up and "Traceback" in capfd.readouterr().err
+    assert listener.evaluate(document_of(a=box(1))).shown.solids["n1"].measures.volume == pytest.approx(1)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import threading
 import time
+import traceback
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -152,6 +153,11 @@ class Lane:
             except Refusal as refusal:  # a document that cannot be told to the worker
                 if job is not None:
                     self._refuse(job, str(refusal))
+                job = None
+            except Exception as error:  # whatever it is: a lane that stands still would never answer again
+                traceback.print_exc()
+                self._respawn()
+                self._tell(Died(None if job is None else job.number, f"the lane failed: {error}", True))
                 job = None
         self._end()
 
