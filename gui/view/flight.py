@@ -26,10 +26,6 @@ class Flight(QObject):
         self._clock.setEndValue(1.0)
         self._clock.valueChanged.connect(self._step)
 
-    @property
-    def under_way(self) -> bool:
-        return self._clock.state() == QVariantAnimation.State.Running
-
     def go(self, start: Camera, goal: Camera) -> None:
         """Fly from `start` to `goal`; a flight under way ends where it is."""
         self._clock.stop()

@@ -13,7 +13,7 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from ..document.nodes import Difference, Instance, Intersection, LinearArray, Mirror, Node, PolarArray, Union
+from ..document.nodes import Difference, Intersection, Node
 from ..document.placement import inverse, product, unit
 from ..document.primitives import Halfspace
 from .failure import NoSolid
@@ -132,6 +132,3 @@ def bounding_reach(planes: NDArray[np.float64], extent: float) -> float:
             meets = np.linalg.solve(normals[proper], offsets[proper][:, :, None])
             reach = max(reach, float(np.abs(meets).max()))
     return 2 * reach
-
-
-COPYING = (Union, Difference, Intersection, LinearArray, PolarArray, Mirror, Instance)
