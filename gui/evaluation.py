@@ -9,15 +9,17 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
 from ..model.document.document import Document
+from ..model.document.tree import walk
 from ..model.editing.session import Session, State
 
 if TYPE_CHECKING:
     from ..model.worker.lane import Lane
     from ..model.worker.messages import LaneMessage
-    from ..model.worker.shown import Shown
+    from ..model.worker.shown import Part, Shown
 
 PATIENCE = 100  # milliseconds before the window says that it is busy
 IDLE = 250  # milliseconds of rest before the worker gets ready for a drag of what is selected
+MOST_EXAMINED = 64  # selected nodes that are looked at by themselves
 PREVIEW = 4.0  # how much coarser the tolerance is while a value is being dragged
 
 
@@ -43,6 +45,8 @@ class Evaluation(QObject):
     progress = Signal(int, int, str)
     exported = Signal(str, str)
     """Path, and "" or why nothing was written."""
+    examined = Signal(object)
+    """The selected nodes by themselves: a dict of Parts by id (see `parts`)."""
     notice = Signal(str)
     outdated = Signal()
     """What is shown is no longer what the document says, and nobody is at work on it."""
@@ -66,9 +70,16 @@ class Evaluation(QObject):
         self._is_busy = False
         self._exports: set[int] = set()
         self.latest: Shown | None = None
+        self.parts: dict[str, Part] = {}
+        """Of the selected nodes, by id; those of the last answer until the next one comes."""
+        self._examined: tuple[object, ...] | None = None
+        self._examination: int | None = None
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
         self._soon.timeout.connect(self._ask)
+        self._look = QTimer(self)
+        self._look.setSingleShot(True)
+        self._look.timeout.connect(self._examine)
         self._patience = QTimer(self)
         self._patience.setSingleShot(True)
         self._patience.setInterval(PATIENCE)
@@ -108,6 +119,7 @@ class Evaluation(QObject):
         if self._asked is None or self._asked[0] is not after.document or self._asked[1] != self._tolerance():
             self._soon.start(0)
         elif before.selection != after.selection:
+            self._look.start(0)
             self._idle.start()
 
     def ask(self) -> None:
@@ -144,9 +156,31 @@ class Evaluation(QObject):
             self._soon.stop()
             self._patience.stop()
             self._idle.stop()
+            self._look.stop()
             for lane in (self.lane, self.jobs):
                 if lane is not None:
                     lane.close()
+
+    def _examine(self) -> None:
+        """Ask for the selected nodes by themselves, unless that has been done; on a drag's way only for new shapes."""
+        selection = self._session.selection
+        if self.lane is None or self._request is not None or self._soon.isActive():
+            return  # the answer comes back here
+        if not selection or len(selection) > MOST_EXAMINED:
+            self._examination, self._examined = None, None
+            if self.parts:
+                self.parts = {}
+                self.examined.emit(self.parts)
+            return
+        document = self._session.document
+        if self._session.previewing:
+            held = {node.id: node.shape_digest for node in walk(*document.roots)}
+            asked: tuple[object, ...] = (tuple(held.get(i) for i in selection), document.parameters)
+        else:
+            asked = (selection, document.solids, document.definitions, document.parameters)
+        if asked != self._examined:
+            self._examined = asked
+            self._examination = self.lane.examine(document, selection, self._tolerance())
 
     def _prepare(self) -> None:
         """Let the worker cut what does not depend on the selected node, so that dragging its values is quick."""
@@ -169,7 +203,7 @@ class Evaluation(QObject):
             self._patience.start()
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.worker.messages import Cancelled, Died, Evaluated, Progress
+        from ..model.worker.messages import Cancelled, Died, Evaluated, Examined, Progress
 
         if self._closed:
             return
@@ -181,7 +215,13 @@ class Evaluation(QObject):
                 self._rest()
                 self.latest = message.shown
                 self.shown.emit(message.shown, message.seconds)
+                self._look.start(0)
                 self._idle.start()
+            case Examined():
+                if message.request == self._examination:
+                    self._examination = None
+                    self.parts = message.parts
+                    self.examined.emit(self.parts)
             case Progress(request, done, total, label):
                 if request == self._request:
                     self.progress.emit(done, total, label)

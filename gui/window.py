@@ -6,14 +6,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, QTimer
+from PySide6.QtCore import QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
-from PySide6.QtWidgets import QApplication, QDockWidget, QMainWindow, QTabWidget, QWidget
+from PySide6.QtWidgets import QApplication, QMainWindow
 
 from ..model.document.tree import trail
 from ..model.editing.commands import DOCUMENT_COMMANDS
 from ..model.editing.session import Session, State
 from .actions import Actions
+from .docks import arrange
 from .evaluation import Evaluation
 from .files import Files
 from .menus import fill_menus
@@ -22,10 +23,10 @@ from .panels.parameters import Parameters
 from .panels.problems import Problems
 from .panels.properties import Properties
 from .panels.script_log import ScriptLog
-from .panels.tree import Tree
 from .settings import LAYOUT_VERSION, Settings
 from .status import StatusBar, shown_solids
 from .theme import Theme
+from .tree.tree import Tree
 from .view.thumbnail import thumbnail
 from .view.viewport import Viewport
 from .view.welcome import Welcome
@@ -65,7 +66,7 @@ class MainWindow(QMainWindow):
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()
-        self.docks_menu_entries = [dock.toggleViewAction() for dock in self.findChildren(QDockWidget)]
+        self.docks_menu_entries = [dock.toggleViewAction() for dock in self.docks.values()]
         fill_menus(self)
         tools = self.addToolBar("Tools")
         tools.setObjectName("tools")
@@ -108,36 +109,12 @@ class MainWindow(QMainWindow):
         self.parameters = Parameters(self.session, self)
         self.problems = Problems(self.session, self)
         self.script = ScriptLog(self.session, self)
-        areas = Qt.DockWidgetArea
-        self._dock("Model", self.tree, areas.LeftDockWidgetArea, 250)
-        self._dock("Properties", self.properties, areas.RightDockWidgetArea, 290)
-        tabs = [
-            self._dock(title, widget, areas.BottomDockWidgetArea, 150, tabbed=True)
-            for title, widget in (("Parameters", self.parameters), ("Problems", self.problems), ("Script", self.script))
-        ]
-        for dock in tabs[1:]:
-            self.tabifyDockWidget(tabs[0], dock)
-        tabs[0].raise_()
-        self.problems_dock = tabs[1]
-        self.setTabPosition(areas.BottomDockWidgetArea, QTabWidget.TabPosition.North)
-        self.setCorner(Qt.Corner.BottomLeftCorner, areas.LeftDockWidgetArea)
-        self.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
-        self.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
-
-    def _dock(
-        self, title: str, widget: QWidget, area: Qt.DockWidgetArea, size: int, tabbed: bool = False
-    ) -> QDockWidget:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(f"dock_{title.lower()}")
-        dock.setWidget(widget)
-        features = QDockWidget.DockWidgetFeature
-        dock.setFeatures(features.DockWidgetClosable | features.DockWidgetMovable)
-        if tabbed:
-            dock.setTitleBarWidget(QWidget(dock))  # the tab says it
-        self.addDockWidget(area, dock)
-        upright = area != Qt.DockWidgetArea.BottomDockWidgetArea
-        self.resizeDocks([dock], [size], Qt.Orientation.Horizontal if upright else Qt.Orientation.Vertical)
-        return dock
+        self.docks = arrange(
+            self,
+            left={"Model": self.tree},
+            right={"Properties": self.properties},
+            bottom={"Parameters": self.parameters, "Problems": self.problems, "Script": self.script},
+        )
 
     def _connect(self) -> None:
         self._unlisten = self.session.on_change(self._changed)
@@ -207,11 +184,11 @@ class MainWindow(QMainWindow):
         self.actions_.refresh()
 
     def _show_problems(self) -> None:
-        self.problems_dock.show()
-        self.problems_dock.raise_()
+        self.docks["Problems"].show()
+        self.docks["Problems"].raise_()
 
     def _count_problems(self, count: int) -> None:
-        self.problems_dock.setWindowTitle(f"Problems ({count})" if count else "Problems")
+        self.docks["Problems"].setWindowTitle(f"Problems ({count})" if count else "Problems")
 
     def _opened(self) -> None:
         self.viewport.fit_next()

@@ -10,6 +10,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 from . import camera as camera_value
 from .camera import Camera, fit, ray, with_projection
 from .ground import Ground
+from .handles.overlay import Overlay
 from .look import Look, look_of
 from .pick import Pick, Picker
 from .picture import union
@@ -39,7 +40,8 @@ class Viewer:
         self.window.AddRenderer(self.renderer)
         self.scene = Scene(self.renderer, look)
         self.ground = Ground(self.renderer, look)
-        self.cube = ViewCube(self.window, look)
+        self.overlay = Overlay(self.window, look)
+        self.cube = ViewCube(self.window, look, layer=2)
         self.camera = standard_view(Camera(), "iso")
         self.size = (300.0, 200.0)
         self.scale = 1.0
@@ -69,6 +71,7 @@ class Viewer:
         self.scene.before_render(self.camera)
         bounds = union(self.scene.visible_bounds(), self.ground.bounds)
         camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
+        self.overlay.before_render(self.camera, self.size, self.scale)
         self.cube.turn(self.camera)
         if self._software is None:
             self._software = is_software(self.window)
@@ -112,6 +115,7 @@ class Viewer:
         look = look_of(theme) if isinstance(theme, str) else theme
         self.scene.set_look(look)
         self.ground.set_look(look)
+        self.overlay.set_look(look)
         self.cube.set_look(look)
         self.needs_render = True
 
@@ -192,4 +196,4 @@ class Viewer:
         """Four samples a pixel on a graphics card, FXAA on the processor and where depths are peeled."""
         if self._software is not None:
             samples = 0 if self._software or self.scene.opacity < 1.0 else 4
-            smooth(self.window, [self.renderer, self.cube.renderer], samples)
+            smooth(self.window, [self.renderer, self.overlay.renderer, self.cube.renderer], samples)

@@ -215,9 +215,9 @@ def test_problems_are_listed_and_select_their_node(driver):
     driver.open(Document(solids=(Box(id="a", name="a"), Halfspace(id="b", name="b"))))
     problems = driver.window.problems
     driver.qtbot.waitUntil(lambda: problems.list.count() == 1)
-    assert driver.window.problems_dock.windowTitle() == "Problems (1)"
+    assert driver.window.docks["Problems"].windowTitle() == "Problems (1)"
     assert "a" in driver.window.viewport.viewer.scene.meshes
-    driver.window.problems_dock.raise_()
+    driver.window.docks["Problems"].raise_()
     driver.qtbot.waitUntil(problems.list.isVisible)
     place = problems.list.visualItemRect(problems.list.item(0)).center()
     driver.qtbot.mouseClick(problems.list.viewport(), Qt.MouseButton.LeftButton, pos=place)
@@ -225,7 +225,7 @@ def test_problems_are_listed_and_select_their_node(driver):
     driver.window.tree.setFocus()
     driver.keys("Delete", driver.window.tree)
     driver.settle()
-    driver.qtbot.waitUntil(lambda: driver.window.problems_dock.windowTitle() == "Problems")
+    driver.qtbot.waitUntil(lambda: driver.window.docks["Problems"].windowTitle() == "Problems")
 
 
 def test_parameters_by_table_and_slider(driver):
@@ -357,11 +357,11 @@ def test_measures_are_copied(driver):
 def test_the_layout_is_kept(make_window):
     first = make_window()
     first.window.resize(1100, 700)
-    first.window.findChild(type(first.window.problems_dock), "dock_script").hide()
+    first.window.findChild(type(first.window.docks["Problems"]), "dock_script").hide()
     first.window.close()
     second = make_window()
     assert second.window.size().width() == 1100
-    assert second.window.findChild(type(first.window.problems_dock), "dock_script").isHidden()
+    assert second.window.findChild(type(first.window.docks["Problems"]), "dock_script").isHidden()
 
 
 def test_a_field_that_was_left_commits_before_the_next_command(driver):

@@ -5,8 +5,8 @@ from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPoint, Qt
 from PySide6.QtTest import QAbstractItemModelTester
 from PySide6.QtWidgets import QLineEdit
 
-from solidtree.gui.panels.tree_model import EYE, TreeModel
-from solidtree.gui.panels.tree_rows import longest_rising, runs
+from solidtree.gui.tree.tree_model import EYE, TreeModel
+from solidtree.gui.tree.tree_rows import longest_rising, runs
 from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Difference, Node, Union
 from solidtree.model.document.primitives import Box, Cylinder, Sphere

@@ -1,1 +1,1 @@
-"""The docks of the window: tree, properties, parameters, problems, script. Imports Qt; no VTK."""
+"""The docks of the window: properties, parameters, problems, script. Imports Qt; no VTK."""

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from ...render.camera import Camera
     from ...render.pick import Pick
     from ...render.viewer import Viewer
+    from ..tools.tool import Tool
     from .navigation import Navigation
 
 
@@ -48,6 +49,8 @@ class Viewport(QWidget):
         self.setMinimumSize(200, 150)
         self.viewer: Viewer | None = None
         self.navigation: Navigation | None = None
+        self.tools: list[Tool] = []
+        self._holder: Tool | None = None
         self._session = session
         self._meshes: dict[str, Any] = {}
         self._kept: dict[str, tuple[Any, Any, Any, Any]] = {}
@@ -77,6 +80,8 @@ class Viewport(QWidget):
         for change in self._pending:
             change(self.viewer)
         self._pending.clear()
+        for tool in self.tools:
+            tool.attached(self.viewer)
         if self._meshes:
             self._show()
         self._render()
@@ -87,8 +92,16 @@ class Viewport(QWidget):
         self._timer.stop()
         self.flight.stop()
         if self.viewer is not None:
+            for tool in self.tools:
+                tool.closing()
             viewer, self.viewer, self.navigation = self.viewer, None, None
             viewer.close()
+
+    def add_tool(self, tool: Tool) -> None:
+        """Let a tool have the events before the tools added earlier, and before the navigation."""
+        self.tools.insert(0, tool)
+        if self.viewer is not None:
+            tool.attached(self.viewer)
 
     def change(self, change: Callable[[Viewer], None]) -> None:
         """Do something to the viewer, now or when it is there, and draw."""
@@ -109,12 +122,16 @@ class Viewport(QWidget):
         """Show these meshes, by the id of their solid's root; the first ones are fitted into the picture."""
         self._meshes = dict(meshes)
         self._show()
+        for tool in self.tools:
+            tool.shown()
 
     def session_changed(self, before: State, after: State) -> None:
         if before.document is not after.document:
             self._show()  # colours and visibility need no evaluation
         elif before.selection != after.selection:
             self._highlight()
+        for tool in self.tools:
+            tool.session_changed(before, after)
 
     def fit_next(self) -> None:
         """Fit when meshes come next, as after opening a document."""
@@ -214,21 +231,44 @@ class Viewport(QWidget):
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self.flight.stop()
-        if self.navigation is not None:
+        if self.navigation is None:
+            return
+        if self._holder is None and not self.navigation.dragging:
+            self._holder = next((tool for tool in self.tools if tool.press(event)), None)
+        elif self._holder is not None:
+            self._holder.press(event)
+        if self._holder is None:
             self.navigation.press(event)
+        self.refresh()
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
-        if self.navigation is not None:
+        if self.navigation is None:
+            return
+        if self._holder is not None:
+            self._holder.move(event)
+        elif self.navigation.dragging or not any(tool.move(event) for tool in self.tools):
             self.navigation.move(event)
-            self.refresh()
+        else:
+            self.navigation.leave()
+        self.refresh()
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        if self.navigation is not None:
+        if self.navigation is None:
+            return
+        if self._holder is not None:
+            self._holder.release(event)
+            if not event.buttons():
+                self._holder = None
+        else:
             self.navigation.release(event)
+        self.refresh()
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
-        if self.navigation is not None:
+        if self.navigation is None:
+            return
+        if not any(tool.double_click(event) for tool in self.tools):
             self.navigation.double_click(event)
+        self.refresh()
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         self.flight.stop()
@@ -239,12 +279,16 @@ class Viewport(QWidget):
     def leaveEvent(self, event: QEvent) -> None:
         if self.navigation is not None:
             self.navigation.leave()
+            for tool in self.tools:
+                tool.leave()
             self.refresh()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         from .navigation import turned
 
-        if event.key() == Qt.Key.Key_Escape:
+        if any(tool.key(event) for tool in self.tools):
+            self.refresh()
+        elif event.key() == Qt.Key.Key_Escape:
             self._session.select(())
         elif self.viewer is not None and (camera := turned(self.viewer.camera, Qt.Key(event.key()))) is not None:
             self.move_to(camera)

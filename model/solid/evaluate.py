@@ -73,6 +73,24 @@ class Evaluator:
             except (ArithmeticError, ValueError, np.linalg.LinAlgError):
                 return Entry((root.digest, tolerance, b""), None, (Problem((), OVERFLOW),))
 
+    def within(
+        self, node: Node, tolerance: float, box: Bounds | None, progress: Callable[[str], None] | None = None
+    ) -> Entry:
+        """The entry of a resolved node in its own axes, before its placement, cut to `box` (2, 3) if it has no end."""
+        self._progress = progress or (lambda label: None)
+        with np.errstate(all="ignore"):
+            wanted = Wanted(node, tolerance, box)
+            try:
+                entry = self._run(wanted)
+                if box is None or entry.seen is None:
+                    return entry
+                # What has no end covers more than the box; only what lies within is meant.
+                low, high = box
+                room = Manifold.cube(tuple(high - low)).translate(tuple(low))
+                return Entry(entry.key, entry.seen ^ room, entry.problems)
+            except (ArithmeticError, ValueError, np.linalg.LinAlgError):
+                return Entry(wanted.key, None, (Problem((), OVERFLOW),))
+
     def _evaluated(self, root: Node, tolerance: float) -> Entry:
         count = occurrence_count(root)
         if count > MOST_OCCURRENCES:

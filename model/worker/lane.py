@@ -6,6 +6,7 @@ import contextlib
 import threading
 import time
 import traceback
+from collections import OrderedDict
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -15,16 +16,23 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.table import to_table
 from ..solid.tessellation import DEFAULT_TOLERANCE
-from .messages import Cancelled, Died, Evaluated, Exported, LaneMessage, Progress, Started
+from .messages import Cancelled, Died, Evaluated, Examined, Exported, LaneMessage, Progress, Started
 from .process import serve
-from .shown import Message, Pictures, Shown
+from .shown import Message, Part, Pictures, Shown
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
+    from ..solid.display import DisplayMesh
+    from ..solid.measure import Measures
+
 
 MOST_DEATHS = 3
 """After so many deaths without a sign of life in between, no further worker is started unasked."""
+
+
+MOST_SURFACES = 64
+"""Nodes by themselves whose surfaces are kept here."""
 
 
 @dataclass(slots=True)
@@ -37,6 +45,7 @@ class _Job:
     solid: str | None = None
     tries: int = 0
     tolerances: tuple[float, ...] = ()
+    ids: tuple[str, ...] = ()
 
 
 class Lane:
@@ -56,7 +65,9 @@ class Lane:
         self._lock = threading.Lock()
         self._evaluation: _Job | None = None
         self._exports: list[_Job] = []
+        self._examination: _Job | None = None
         self._preparation: _Job | None = None
+        self._surfaces: OrderedDict[bytes, DisplayMesh | None] = OrderedDict()
         self._cancelled = False
         self._closed = False
         self._started = False
@@ -97,6 +108,18 @@ class Lane:
         self._wake()
         return number
 
+    def examine(self, document: Document, ids: tuple[str, ...], tolerance: float = DEFAULT_TOLERANCE) -> int:
+        """Ask for nodes by themselves, as ghosts and measures need them; a newer question takes the place of this one.
+
+        An evaluation that is asked for before the answer goes first.
+        """
+        with self._lock:
+            self._number += 1
+            self._examination = _Job(self._number, "examine", document, tolerance, ids=ids)
+            number = self._number
+        self._wake()
+        return number
+
     def prepare(self, document: Document, node_id: str, tolerances: tuple[float, ...] = (DEFAULT_TOLERANCE,)) -> None:
         """Get ready for changes of one operand, while nothing else is asked for: the rest is cut without it."""
         with self._lock:
@@ -112,7 +135,7 @@ class Lane:
             self._cancelled = True
             self._evaluation = None
             self._exports.clear()
-            self._preparation = None
+            self._examination = self._preparation = None
         self._wake()
 
     def close(self) -> None:
@@ -169,6 +192,9 @@ class Lane:
                 return job
             if self._exports:
                 return self._exports.pop(0)
+            if self._examination is not None:
+                job, self._examination = self._examination, None
+                return job
             job, self._preparation = self._preparation, None
             return job
 
@@ -187,6 +213,8 @@ class Lane:
         table = to_table(job.document)
         if job.word == "evaluate":
             request: tuple[Any, ...] = ("evaluate", job.number, table, job.tolerance, self._pictures.keys())
+        elif job.word == "examine":
+            request = ("examine", job.number, table, job.tolerance, job.ids, set(self._surfaces))
         elif job.word == "prepare":
             request = ("prepare", job.number, table, job.tolerances, job.solid)
         else:
@@ -264,6 +292,14 @@ class Lane:
             case ("progress", number, done, total, label):
                 if job is not None and number == job.number:
                     self._tell(Progress(number, done, total, label))
+            case ("superseded", number) if job is not None and number == job.number:
+                with self._lock:
+                    if job.word == "examine" and self._examination is None:
+                        self._examination = job  # it is still wanted, after what came between
+                return True
+            case ("examined", number, answers) if job is not None and number == job.number:
+                self._tell(Examined(number, self._parts(answers)))
+                return True
             case ("superseded" | "prepared", number):
                 return job is not None and number == job.number
             case ("evaluated", number, answers, seconds, evaluations) if job is not None and number == job.number:
@@ -277,6 +313,16 @@ class Lane:
                 self._refuse(job, reason)
                 return True
         return False
+
+    def _parts(self, answers: list[tuple[str, bytes, DisplayMesh | None, Measures | None]]) -> dict[str, Part]:
+        parts = {}
+        for node_id, key, mesh, measures in answers:
+            self._surfaces.setdefault(key, mesh)
+            self._surfaces.move_to_end(key)
+            parts[node_id] = Part(key, self._surfaces[key], measures)
+        while len(self._surfaces) > max(MOST_SURFACES, len(answers)):
+            self._surfaces.popitem(last=False)
+        return parts
 
     def _refuse(self, job: _Job, reason: str) -> None:
         if job.word == "export":

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from .shown import Shown
+from .shown import Part, Shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,6 +35,14 @@ class Evaluated:
 
 
 @dataclass(frozen=True, slots=True)
+class Examined:
+    """The answer to `Lane.examine`: parts by node id; nodes that no visible solid holds are left out."""
+
+    request: int
+    parts: dict[str, Part]
+
+
+@dataclass(frozen=True, slots=True)
 class Exported:
     """The answer to `Lane.export`; `fault` says in words why no file was written."""
 
@@ -59,4 +67,4 @@ class Died:
     given_up: bool
 
 
-LaneMessage = Started | Progress | Evaluated | Exported | Cancelled | Died
+LaneMessage = Started | Progress | Evaluated | Examined | Exported | Cancelled | Died

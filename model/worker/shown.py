@@ -42,6 +42,18 @@ class Shown:
     problems: tuple[Message, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class Part:
+    """A node by itself: its surface in its own axes, before its placement, and the measures of its first place.
+
+    Equal keys have the same surface; `mesh` is None where there is none.
+    """
+
+    key: bytes
+    mesh: DisplayMesh | None
+    measures: Measures | None
+
+
 def shown_key(root: Node, tolerance: float) -> bytes:
     """What a shown solid is kept under: its value, in place, at a tolerance."""
     return root.digest + f"{tolerance!r}".encode()

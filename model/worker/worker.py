@@ -18,6 +18,7 @@ from ..document.table import Reuse, from_table
 from ..document.tree import change, trail
 from ..solid.entry import Superseded
 from ..solid.evaluate import Evaluator
+from ..solid.examine import examine
 from ..solid.results import display_of, result_of
 from .shown import Message, shown_key
 
@@ -89,6 +90,15 @@ class _Worker:
         progress.report("drawing")
         result = result_of(root, entry)
         return display_of(result, self._evaluator), result.measures(), result.messages
+
+    def _examine(
+        self, number: int, table: dict[str, Any], tolerance: float, ids: tuple[str, ...], known: set[bytes]
+    ) -> tuple[Any, ...]:
+        """Each node by itself as (id, key, mesh, measures); without the mesh where its key is known."""
+        document = from_table(table, self._reuse)
+        solids = self._resolver.resolve(document).solids
+        progress = _Progress(self._connection, number, len(table["nodes"]))
+        return "examined", number, examine(self._evaluator, solids, ids, tolerance, known, progress)
 
     def _prepare(
         self, number: int, table: dict[str, Any], tolerances: tuple[float, ...], node_id: str

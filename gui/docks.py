@@ -1,0 +1,51 @@
+"""The docks around the picture: where they stand at first."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
+
+LEFT, RIGHT, BOTTOM = 250, 290, 150  # pixels
+
+
+def arrange(
+    window: QMainWindow, left: Mapping[str, QWidget], right: Mapping[str, QWidget], bottom: Mapping[str, QWidget]
+) -> dict[str, QDockWidget]:
+    """Docks by title; several on a side stand behind one another as tabs, the first one in front."""
+    areas = Qt.DockWidgetArea
+    window.setTabPosition(areas.BottomDockWidgetArea, QTabWidget.TabPosition.North)
+    window.setTabPosition(areas.RightDockWidgetArea, QTabWidget.TabPosition.North)
+    window.setTabPosition(areas.LeftDockWidgetArea, QTabWidget.TabPosition.North)
+    window.setCorner(Qt.Corner.BottomLeftCorner, areas.LeftDockWidgetArea)
+    window.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
+    window.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
+    docks: dict[str, QDockWidget] = {}
+    for area, widgets, size in (
+        (areas.LeftDockWidgetArea, left, LEFT),
+        (areas.RightDockWidgetArea, right, RIGHT),
+        (areas.BottomDockWidgetArea, bottom, BOTTOM),
+    ):
+        beside = [_dock(window, title, widget, area, len(widgets) > 1) for title, widget in widgets.items()]
+        for dock in beside[1:]:
+            window.tabifyDockWidget(beside[0], dock)
+        if beside:
+            upright = area != areas.BottomDockWidgetArea
+            direction = Qt.Orientation.Horizontal if upright else Qt.Orientation.Vertical
+            window.resizeDocks(beside[:1], [size], direction)
+            beside[0].raise_()
+        docks |= zip(widgets, beside, strict=True)
+    return docks
+
+
+def _dock(window: QMainWindow, title: str, widget: QWidget, area: Qt.DockWidgetArea, tabbed: bool) -> QDockWidget:
+    dock = QDockWidget(title, window)
+    dock.setObjectName(f"dock_{title.lower()}")
+    dock.setWidget(widget)
+    features = QDockWidget.DockWidgetFeature
+    dock.setFeatures(features.DockWidgetClosable | features.DockWidgetMovable)
+    if tabbed:
+        dock.setTitleBarWidget(QWidget(dock))  # the tab says it
+    window.addDockWidget(area, dock)
+    return dock
