@@ -13,7 +13,7 @@ from ..model.editing.commands import Command
 from .icons import icon
 from .panels.text_line import TextLine
 
-MENUS = ("File", "Edit", "Add", "Combine", "View", "Help")
+MENUS = ("File", "Edit", "Add", "Combine", "Tools", "View", "Help")
 
 
 class Actions(QObject):
