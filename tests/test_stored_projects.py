@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from solidtree.model.document.document import Document, Parameter
+from solidtree.model.document.document import Document, Parameter, ParameterSet, Section
 from solidtree.model.document.nodes import KINDS, Broken, Node
 from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered, walk
@@ -76,8 +76,18 @@ def format_1() -> Document:
     )
 
 
-def test_format_1_opens_as_it_was_made():
-    assert same_document(open_document(PROJECTS / "format_1.solidtree"), format_1())
+def format_2() -> Document:
+    """Format 1, with saved values of the parameters and a plane that opens the picture."""
+    return format_1().with_(
+        sets=(ParameterSet("wide", (("width", 80), ("depth", "width / 4"))), ParameterSet("=as it was")),
+        sections=(Section("middle", (0, 2.5, 0), (0, 3, 4)), Section("top", (0, 0, 9), active=False)),
+        notes="Every kind of node, as format 2 writes it.",
+    )
+
+
+@pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2)])
+def test_every_format_opens_as_it_was_made(name, made):
+    assert same_document(open_document(PROJECTS / f"{name}.solidtree"), made())
 
 
 def test_the_stored_file_of_the_present_format_knows_every_kind():

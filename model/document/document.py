@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import keyword
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
 from .arithmetic import RESERVED, normal_name
 from .errors import Refusal
-from .expression import Expression, Number, number, resolved
+from .expression import Expression, Number, number, resolved, vector
 from .nodes import Node
 
 
@@ -70,6 +71,63 @@ class Parameter:
         return dataclasses.replace(self, **changes)
 
 
+@dataclass(frozen=True, slots=True)
+class ParameterSet:
+    """Values of parameters under a name, as a customizer saves them; parameters it does not name keep theirs."""
+
+    name: str
+    values: tuple[tuple[str, Number], ...] = ()
+
+    def __post_init__(self) -> None:
+        what = _proper_name(self.name, "a set of parameters")
+        if isinstance(self.values, str) or not isinstance(self.values, Iterable):
+            raise Refusal(f"{what}: pairs of a name and a value are needed, not {self.values!r:.60}")
+        values: dict[str, Number] = {}
+        for pair in self.values:
+            if not (isinstance(pair, tuple | list) and len(pair) == 2 and isinstance(pair[0], str)):
+                raise Refusal(f"{what}: {pair!r:.60} is no pair of a parameter's name and its value")
+            if pair[0] in values:
+                raise Refusal(f"{what} gives the parameter {pair[0]} twice")
+            values[pair[0]] = number(pair[1], f"{what}: {pair[0]}")
+        object.__setattr__(self, "values", tuple(values.items()))
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """A plane that opens the picture: shown is what lies on the side that its normal points to, with the cut hatched.
+
+    `point` in millimetres, on the plane; `normal` is kept as a unit vector.
+    """
+
+    name: str
+    point: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    normal: tuple[float, float, float] = (0.0, 0.0, -1.0)
+    active: bool = True
+
+    def __post_init__(self) -> None:
+        what = _proper_name(self.name, "a section")
+        if not isinstance(self.active, bool):
+            raise Refusal(f"{what}: active must be true or false, not {self.active!r:.60}")
+        for field in ("point", "normal"):
+            numbers = vector(getattr(self, field), f"{what}: the {field}", 3)
+            object.__setattr__(self, field, tuple(_plain_number(n, f"{what}: the {field}") for n in numbers))
+        size = math.hypot(*self.normal)
+        if not 1e-150 < size < 1e150:
+            raise Refusal(f"{what}: the normal must be a direction, not {', '.join(f'{n:g}' for n in self.normal)}")
+        if abs(size - 1.0) > 1e-15:
+            object.__setattr__(self, "normal", tuple(n / size for n in self.normal))
+
+    def with_(self, **changes: Any) -> Self:
+        return dataclasses.replace(self, **changes)
+
+
+def _proper_name(name: object, what: str) -> str:
+    """Words for a named part in messages. Raises Refusal where it has no name."""
+    if not isinstance(name, str) or not name.strip() or len(name) > 200:
+        raise Refusal(f"{what} needs a name of 1 to 200 characters, not {name!r:.60}")
+    return f"{what.split(' ', 1)[1]} “{name}”"
+
+
 def _plain_number(value: object, what: str) -> float:
     plain = number(value, what)
     if isinstance(plain, Expression):
@@ -82,21 +140,25 @@ class Document:
     """All that is undoable and saved. A change makes a new document that shares what it did not touch.
 
     `solids` are the roots of the CSG trees, `profiles` the outlines that stand by themselves, `definitions` the
-    sub-trees that instances refer to by their root's id.
+    sub-trees that instances refer to by their root's id. `sets` are saved values of the parameters, `sections` the
+    planes that open the picture; the names of either are all different.
     """
 
     solids: tuple[Node, ...] = ()
     profiles: tuple[Node, ...] = ()
     definitions: tuple[Node, ...] = ()
     parameters: tuple[Parameter, ...] = ()
+    sets: tuple[ParameterSet, ...] = ()
+    sections: tuple[Section, ...] = ()
     notes: str = ""
 
     def __post_init__(self) -> None:
-        names: set[str] = set()
-        for parameter in self.parameters:
-            if parameter.name in names:
-                raise Refusal(f"there are two parameters called {parameter.name}")
-            names.add(parameter.name)
+        for members, what in ((self.parameters, "parameters"), (self.sets, "sets"), (self.sections, "sections")):
+            names: set[str] = set()
+            for member in members:
+                if member.name in names:
+                    raise Refusal(f"there are two {what} called {member.name}")
+                names.add(member.name)
 
     def __repr__(self) -> str:
         return f"<Document of {len(self.solids)} solids>"

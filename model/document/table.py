@@ -9,7 +9,7 @@ from typing import Any
 
 from . import primitives as _primitives  # registers the kinds of the leaves
 from .colours import hex_colour
-from .document import Document, Parameter
+from .document import Document, Parameter, ParameterSet, Section
 from .errors import Refusal
 from .expression import Expression, Number
 from .nodes import KINDS, Broken, Instance, Node, field_specs
@@ -41,6 +41,11 @@ def to_table(document: Document) -> dict[str, Any]:
     for family in FAMILIES:
         table[family] = [node.id for node in getattr(document, family)]
     table["parameters"] = [_parameter_row(parameter) for parameter in document.parameters]
+    table["sets"] = [{"name": one.name, "values": [[n, _plain(v)] for n, v in one.values]} for one in document.sets]
+    table["sections"] = [
+        {"name": one.name, "point": _plain(one.point), "normal": _plain(one.normal), "active": one.active}
+        for one in document.sections
+    ]
     table["notes"] = document.notes
     return table
 
@@ -109,6 +114,8 @@ def from_table(table: Mapping[str, Any], reuse: Reuse | None = None) -> Document
     return Document(
         **{family: tuple(made[root] for root in roots[family]) for family in FAMILIES},
         parameters=tuple(_parameter(row) for row in parameters),
+        sets=tuple(_set(row) for row in _expect(table.get("sets", []), list, "“sets”")),
+        sections=tuple(_section(row) for row in _expect(table.get("sections", []), list, "“sections”")),
         notes=_expect(table.get("notes", ""), str, "“notes”"),
     )
 
@@ -211,6 +218,26 @@ def _parameter(row: Any) -> Parameter:
         return Parameter(value=value, choices=tuple(choices), **row)
     except (TypeError, ValueError):
         raise Refusal(f"the parameter {row['name']!r:.60} has a field of the wrong form") from None
+
+
+def _set(row: Any) -> ParameterSet:
+    row = _fields(row, "a set of parameters", ParameterSet)
+    pairs = [_expect(pair, list, "a value in a set of parameters") for pair in _expect(row["values"], list, "“values”")]
+    return ParameterSet(row["name"], tuple((pair[0], _value(pair[1])) if len(pair) == 2 else pair for pair in pairs))
+
+
+def _section(row: Any) -> Section:
+    row = _fields(row, "a section", Section)
+    return Section(row["name"], _value(row["point"]), _value(row["normal"]), row["active"])
+
+
+def _fields(row: Any, what: str, kind: type[ParameterSet | Section]) -> dict[str, Any]:
+    row = _expect(row, dict, what)
+    names = {field.name for field in dataclasses.fields(kind)}
+    wrong = sorted(names ^ set(row))
+    if wrong:
+        raise Refusal(f"{what} has {'no' if wrong[0] in names else 'an unknown'} field {wrong[0]!r:.60}")
+    return row
 
 
 def _ids(value: Any, what: str) -> list[str]:
