@@ -67,6 +67,8 @@ class Evaluation(QObject):
         self._closed = False
         self._asked: tuple[Document, float] | None = None
         self._request: int | None = None
+        self._asked_on_the_way = False  # of a drag
+        self._again = False
         self._is_busy = False
         self._exports: set[int] = set()
         self.latest: Shown | None = None
@@ -197,6 +199,10 @@ class Evaluation(QObject):
     def _ask(self) -> None:
         if self.lane is None:
             return
+        if self._session.previewing and self._request is not None and self._asked_on_the_way:
+            self._again = True  # one after the other: superseding each would show none of a drag
+            return
+        self._again, self._asked_on_the_way = False, self._session.previewing
         self._asked = (self._session.document, self._tolerance())
         self._request = self.lane.evaluate(*self._asked)
         if not self._is_busy and not self._patience.isActive():
@@ -212,6 +218,8 @@ class Evaluation(QObject):
                 if message.request != self._request:
                     return  # stale: a newer document has been asked for
                 self._request = None
+                if self._again:
+                    self._ask()
                 self._rest()
                 self.latest = message.shown
                 self.shown.emit(message.shown, message.seconds)

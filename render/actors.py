@@ -42,7 +42,6 @@ class SolidActors:
             lines.GetMapper().ScalarVisibilityOff()
             lines.PickableOff()
         self._adjacency: Adjacency | None = None
-        self._feature_owners: NDArray[np.int32] | None = None
         self._outlined: NDArray[np.bool_] = np.zeros(len(mesh.owners), bool)
         self._palette: NDArray[np.uint8] | None = None
 
@@ -124,10 +123,7 @@ class SolidActors:
     def _features_of(self, owners: NDArray[np.bool_]) -> NDArray[np.bool_]:
         if not owners.any():
             return np.zeros(len(self.mesh.edges), bool)
-        if self._feature_owners is None:
-            self._feature_owners = self.adjacency.owners_of_features()
-        sides = np.append(owners, False)[self._feature_owners]
-        return sides[:, 0] | sides[:, 1]
+        return owners[self.mesh.owner[self.mesh.edge_sides]].any(axis=1)
 
 
 def _actor(data: vtkPolyData, offset: bool = False) -> vtkActor:

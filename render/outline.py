@@ -1,4 +1,4 @@
-"""Which triangles meet at which edges of a DisplayMesh: outlines of selected parts, and silhouettes."""
+"""Which triangles meet at which edges of a DisplayMesh, and its silhouettes."""
 
 from typing import TYPE_CHECKING
 
@@ -39,18 +39,6 @@ class Adjacency:
         self.sides: Indices = np.column_stack([triangle[first], second]).astype(np.int32)
         self._normals: NDArray[np.float32] | None = None
 
-    def owners_of_features(self) -> Indices:
-        """The owners (e, 2) on both sides of the mesh's feature edges; -1 where there is no triangle."""
-        mesh = self._mesh
-        places = _places(mesh.edge_points, mesh.points, self._weld)
-        ends = np.sort(places[mesh.edges].astype(np.int64), axis=1).reshape(-1, 2)
-        keys = ends[:, 0] * (len(mesh.points) + 1) + ends[:, 1]
-        if not len(self.keys):
-            return np.full((len(keys), 2), -1, np.int32)
-        found = np.minimum(np.searchsorted(self.keys, keys), len(self.keys) - 1)
-        sides = np.where((self.keys[found] == keys)[:, None], self.sides[found], -1)
-        return np.where(sides >= 0, mesh.owner[sides], -1).astype(np.int32)
-
     def silhouette(self, eye: ArrayLike, parallel: bool = False) -> Indices:
         """The edges (s, 2) between a triangle that faces the eye and one that does not, and all borders.
 
@@ -66,21 +54,16 @@ class Adjacency:
         return self.edges[border | (facing[self.sides[:, 0]] != facing[self.sides[:, 1]])]
 
 
-def _places(
-    points: NDArray[np.float32], known: NDArray[np.float32] | None = None, weld: Indices | None = None
-) -> Indices:
-    """For each of `points` (n, 3) the index of the first point in the same place; among `known`, or len(known)."""
-    cloud = points if known is None else np.concatenate([known, points])
-    if not len(cloud):
+def _places(points: NDArray[np.float32]) -> Indices:
+    """For each of `points` (n, 3) the index of the first point in the same place."""
+    if not len(points):
         return np.zeros(0, np.int32)
-    x, y, z = (cloud + np.float32(0.0)).T  # -0.0 becomes 0.0
+    x, y, z = (points + np.float32(0.0)).T  # -0.0 becomes 0.0
     order = np.lexsort((z, y, x))
-    ordered = cloud[order]
+    ordered = points[order]
     new = np.r_[True, (ordered[1:] != ordered[:-1]).any(axis=1)]
     groups = np.flatnonzero(new)
     first = np.minimum.reduceat(order, groups)
-    result = np.empty(len(cloud), np.int32)
+    result = np.empty(len(points), np.int32)
     result[order] = first[np.cumsum(new) - 1]
-    if known is None or weld is None:
-        return result
-    return np.minimum(result[len(known) :], len(known)).astype(np.int32)
+    return result

@@ -26,6 +26,8 @@ def box(lower=(0, 0, 0), upper=(10, 10, 10), root="box") -> DisplayMesh:
         facet += [number, number]
     corners = np.array(list(itertools.product(*bounds.T)))
     sides = [(i, j) for i in range(8) for j in range(i) if (corners[i] != corners[j]).sum() == 1]
+    places = np.array(points)[np.array(triangles)]
+    touching = [[t for t in range(12) if {*map(tuple, corners[[i, j]])} <= {*map(tuple, places[t])}] for i, j in sides]
     return DisplayMesh(
         points=np.array(points, np.float32),
         normals=np.array(normals, np.float32),
@@ -36,6 +38,7 @@ def box(lower=(0, 0, 0), upper=(10, 10, 10), root="box") -> DisplayMesh:
         facet=np.array(facet, np.int32),
         edge_points=corners.astype(np.float32),
         edges=np.array(sides, np.int32),
+        edge_sides=np.array(touching, np.int32),
         bounds=bounds,
     )
 

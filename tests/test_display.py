@@ -32,6 +32,15 @@ def test_a_box_has_six_facets_twelve_edges_and_flat_normals():
     assert mesh.bounds.tolist() == [[0, 0, 0], [2, 3, 4]]
 
 
+def test_the_triangles_beside_an_edge_hold_its_ends_and_lie_in_two_facets():
+    mesh = picture_of(box(20) - sphere(8).at(10, 10, 20) - cylinder(2, 30).at(4, 4, -5))
+    ends = mesh.edge_points[mesh.edges]
+    for side in mesh.edge_sides.T:
+        corners = mesh.points[mesh.triangles[side]]
+        assert (ends[:, :, None] == corners[:, None]).all(axis=3).any(axis=2).all()
+    assert (mesh.facet[mesh.edge_sides[:, 0]] != mesh.facet[mesh.edge_sides[:, 1]]).all()
+
+
 def test_a_sphere_is_smooth_and_has_no_edges():
     mesh = picture_of(sphere(10))
     assert len(mesh.edges) == 0

@@ -13,7 +13,8 @@ from solidtree.model.document.tree import change, numbered
 from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
 from solidtree.model.worker.lane import Lane
-from solidtree.model.worker.messages import Cancelled, Died, Evaluated, Exported, Progress, Started
+from solidtree.model.worker.messages import Cancelled, Died, Evaluated, Examined, Exported, Progress, Started
+from solidtree.model.worker.process import WorkerProcess
 
 
 class Listener:
@@ -119,6 +120,39 @@ def test_cancel_ends_the_work_within_a_second_and_the_lane_goes_on(listener):
     assert listener.evaluate(document_of(a=box(3))).shown.solids["n1"].measures.volume == pytest.approx(27)
 
 
+@pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="a process cannot be stopped here")
+def test_cancel_does_not_wait_for_a_worker_that_does_not_read(listener):
+    assert listener.evaluate(document_of(a=box(1))).shown.solids
+    os.kill(listener.lane.pid, signal.SIGSTOP)
+    many = document_of(many=union(*(box(1).at(2 * i) for i in range(3000))))  # far more than a pipe takes
+    number = listener.lane.evaluate(many)
+    while listener.lane.at_work != number:
+        os.sched_yield()
+    listener.lane.cancel()
+    assert listener.wait_for(Cancelled, Evaluated, Died).request == number
+    assert isinstance(listener.seen[-1], Cancelled)
+    assert listener.evaluate(document_of(a=box(2))).shown.solids["n1"].measures.volume == pytest.approx(8)
+
+
+def test_nodes_are_looked_at_by_themselves_and_kept(listener):
+    document = document_of(a=(box(10) - cylinder(2, 30).at(5, 5, -10)))
+    first = listener.wait_for(Examined, request=listener.lane.examine(document, ("n3", "n9"))).parts
+    assert list(first) == ["n3"] and first["n3"].mesh.bounds[1][2] == 30  # before its placement
+    assert first["n3"].measures.bounds[1][2] == pytest.approx(20)
+    moved = change(document, "n3", lambda node: node.at(1))
+    second = listener.wait_for(Examined, request=listener.lane.examine(moved, ("n3",))).parts
+    assert second["n3"].mesh is first["n3"].mesh
+    assert second["n3"].measures.centroid[0] == pytest.approx(6)
+
+
+def test_a_question_about_nodes_waits_for_an_evaluation_and_is_answered_then(listener):
+    asked = listener.lane.examine(heavy(), (heavy().solids[0].id,))
+    listener.wait_for(Progress, request=asked)
+    assert listener.evaluate(document_of(a=box(1))).shown.solids
+    assert not any(isinstance(message, Examined) for message in listener.seen)
+    assert listener.wait_for(Examined, request=asked).parts["n1"].mesh is not None
+
+
 def test_a_worker_killed_from_outside_loses_nothing(listener):
     document = document_of(a=box(2) - sphere(1))
     first = listener.evaluate(document).shown.solids["n1"].mesh
@@ -190,14 +224,15 @@ def test_the_worker_goes_when_its_owner_does():
         os.kill(pid, 0)
 
 
-def test_a_worker_that_cannot_start_is_not_started_for_ever():
-    class Unstartable(Lane):
-        def _spawn(self):
-            super()._spawn()
-            os.kill(self.pid, signal.SIGKILL)
+def test_a_worker_that_cannot_start_is_not_started_for_ever(monkeypatch):
+    class Unstartable(WorkerProcess):
+        def start(self):
+            super().start()
+            self.kill()
 
+    monkeypatch.setattr("solidtree.model.worker.lane.WorkerProcess", Unstartable)
     listener = Listener()
-    listener.lane = lane = Unstartable(listener.messages.put, default_store().folder)
+    lane = listener.lane
     lane.start()
     deaths = [listener.wait_for(Died) for _ in range(3)]
     assert [death.given_up for death in deaths] == [False, False, True]

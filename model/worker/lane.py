@@ -17,7 +17,7 @@ from ..document.errors import Refusal
 from ..document.table import to_table
 from ..solid.tessellation import DEFAULT_TOLERANCE
 from .messages import Cancelled, Died, Evaluated, Examined, Exported, LaneMessage, Progress, Started
-from .process import serve
+from .process import WorkerProcess, reason_of
 from .shown import Message, Part, Pictures, Shown
 
 if TYPE_CHECKING:
@@ -58,8 +58,8 @@ class Lane:
     def __init__(self, on_message: Callable[[LaneMessage], None], store_folder: Path, kept: int = 512 << 20) -> None:
         self._tell = on_message
         self._store_folder = store_folder
-        self._process: Any = None
-        self._connection: Connection | None = None
+        self._process: WorkerProcess | None = None
+        self._current: _Job | None = None
         self._bell: Connection | None = None
         self._ring: Connection | None = None
         self._lock = threading.Lock()
@@ -69,6 +69,7 @@ class Lane:
         self._preparation: _Job | None = None
         self._surfaces: OrderedDict[bytes, DisplayMesh | None] = OrderedDict()
         self._cancelled = False
+        self._killed = False
         self._closed = False
         self._started = False
         self._deaths = 0
@@ -80,6 +81,12 @@ class Lane:
     def pid(self) -> int | None:
         """The worker's process id, for tests and supervision."""
         return None if self._process is None else self._process.pid
+
+    @property
+    def at_work(self) -> int | None:
+        """The number of the request that the worker has."""
+        job = self._current
+        return None if job is None else job.number
 
     def start(self) -> None:
         """Start the worker ahead of the first request, which else does; returns at once."""
@@ -136,6 +143,10 @@ class Lane:
             self._evaluation = None
             self._exports.clear()
             self._examination = self._preparation = None
+            # Not left to the thread, which waits as long as the worker does not read what it is being sent.
+            if self._current is not None and self._process is not None:
+                self._killed = True
+                self._process.kill()
         self._wake()
 
     def close(self) -> None:
@@ -161,9 +172,10 @@ class Lane:
     def _work(self) -> None:
         import multiprocessing  # late and here: a window that starts does not wait for it
 
-        self._context = multiprocessing.get_context("spawn")
-        self._bell, self._ring = self._context.Pipe(duplex=False)
-        self._spawn()
+        context = multiprocessing.get_context("spawn")
+        self._bell, self._ring = context.Pipe(duplex=False)
+        self._process = worker = WorkerProcess(context, str(self._store_folder))
+        worker.start()
         job: _Job | None = None
         while not self._closed:
             if job is None:
@@ -179,24 +191,28 @@ class Lane:
                 job = None
             except Exception as error:  # whatever it is: a lane that stands still would never answer again
                 traceback.print_exc()
-                self._respawn()
+                worker.restart()
                 self._tell(Died(None if job is None else job.number, f"the lane failed: {error}", True))
                 job = None
-        self._end()
+        worker.end()
 
     def _next(self) -> _Job | None:
         with self._lock:
             self._cancelled = False
+            job: _Job | None = None
             if self._evaluation is not None:
                 job, self._evaluation = self._evaluation, None
-                return job
-            if self._exports:
-                return self._exports.pop(0)
-            if self._examination is not None:
+            elif self._exports:
+                job = self._exports.pop(0)
+            elif self._examination is not None:
                 job, self._examination = self._examination, None
-                return job
-            job, self._preparation = self._preparation, None
-            return job
+            else:
+                job, self._preparation = self._preparation, None
+            self._current = job
+            killed, self._killed = self._killed, False
+        if killed and self._process is not None:  # it had answered just before
+            self._process.restart()
+        return job
 
     def _answered_from_pictures(self, job: _Job) -> bool:
         start = time.perf_counter()
@@ -219,9 +235,9 @@ class Lane:
             request = ("prepare", job.number, table, job.tolerances, job.solid)
         else:
             request = ("export", job.number, table, job.path, job.tolerance, job.solid)
-        assert self._connection is not None
+        assert self._process is not None and self._process.connection is not None
         with contextlib.suppress(OSError):  # a worker that is gone is noticed when its answer is read
-            self._connection.send(request)
+            self._process.connection.send(request)
         return job
 
     def _await(self, job: _Job | None) -> _Job | None:
@@ -229,9 +245,11 @@ class Lane:
         from multiprocessing.connection import wait
 
         superseding = False
+        assert self._process is not None and self._bell is not None
         while not self._closed:
-            assert self._connection is not None and self._bell is not None
-            for ready in wait([self._connection, self._bell]):
+            connection = self._process.connection
+            assert connection is not None
+            for ready in wait([connection, self._bell]):
                 if ready is self._bell:
                     self._bell.recv()
                     if self._closed:
@@ -239,17 +257,17 @@ class Lane:
                     if job is None:
                         return None
                     if self._cancelled:
-                        self._respawn()
-                        self._tell(Cancelled(job.number))
-                        return None
+                        return self._after_cancel(job)
                     if self._evaluation is not None and job.word != "export" and not superseding:
                         superseding = True
                         with contextlib.suppress(OSError):
-                            self._connection.send(("stop", 0))
+                            connection.send(("stop", 0))
                     continue
                 try:
-                    message = self._connection.recv()
+                    message = connection.recv()
                 except (EOFError, OSError):
+                    if self._cancelled and job is not None:
+                        return self._after_cancel(job)
                     return self._after_death(job)
                 if self._handled(message, job):
                     return None
@@ -261,20 +279,25 @@ class Lane:
         while not self._closed and self._evaluation is None and not self._exports:
             self._bell.recv()
 
+    def _after_cancel(self, job: _Job) -> None:
+        assert self._process is not None
+        self._killed = False
+        self._process.restart()
+        self._tell(Cancelled(job.number))
+
     def _after_death(self, job: _Job | None) -> _Job | None:
-        process = self._process
-        process.join()
-        reason = _reason(process.exitcode)
+        assert self._process is not None
+        reason = reason_of(self._process.exit_code())
         self._deaths += 1
-        self._end()
+        self._process.end()
         if self._deaths >= MOST_DEATHS:
             self._tell(Died(None if job is None else job.number, reason, True))
             self._wait_for_a_request()
             if not self._closed:
                 self._deaths = 0
-                self._spawn()
+                self._process.start()
             return None
-        self._spawn()
+        self._process.start()
         if job is None:
             self._tell(Died(None, reason, False))
             return None
@@ -329,34 +352,3 @@ class Lane:
             self._tell(Exported(job.number, job.path, reason))
         elif job.word == "evaluate":
             self._tell(Evaluated(job.number, Shown({}, (Message("", "", reason, True),)), 0.0, 0))
-
-    # The process.
-
-    def _spawn(self) -> None:
-        ours, theirs = self._context.Pipe()
-        self._process = self._context.Process(
-            target=serve, args=(theirs, str(self._store_folder)), name="solidtree worker", daemon=True
-        )
-        self._process.start()
-        theirs.close()
-        self._connection = ours
-
-    def _respawn(self) -> None:
-        self._end()
-        self._spawn()
-
-    def _end(self) -> None:
-        if self._connection is not None:
-            self._connection.close()
-        if self._process is not None:
-            self._process.kill()
-            self._process.join()
-            with contextlib.suppress(ValueError):  # somebody else waited for it first
-                self._process.close()
-            self._process = None
-
-
-def _reason(code: int | None) -> str:
-    if code == -9:
-        return "the worker was ended from outside, or ran out of memory"
-    return f"the worker ended unexpectedly (status {code})"
