@@ -135,15 +135,19 @@ class Bar:
 def _info_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
     command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
+    command.add_argument("--nodes", action="store_true", help="measure every node of the trees by itself, too")
+    command.add_argument("--walls", action="store_true", help="estimate the least wall of each solid by 2,000 rays")
+    _parameter_options(command)
 
 
 def _info(options: argparse.Namespace) -> int:
     from ..model.solid.information import information
+    from .shell.parameters import read_with_values
 
-    document = read(options.file)
+    document = read_with_values(options)
     bar = Bar(document)
     try:
-        answer, in_order = information(document, options.tolerance, bar)
+        answer, in_order = information(document, options.tolerance, bar, options.nodes, options.walls)
     finally:
         bar.end()
     print(json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False))
@@ -155,23 +159,31 @@ def _export_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("out", metavar="OUT", help="the file to write; its ending tells the format")
     command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")
     command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
+    _parameter_options(command)
+
+
+def _parameter_options(command: argparse.ArgumentParser) -> None:
+    from .shell.parameters import add_options
+
+    add_options(command)
 
 
 def _convert_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="IN")
     command.add_argument("out", metavar="OUT")
-    command.set_defaults(solid=None, tolerance=TOLERANCE)
+    command.set_defaults(solid=None, tolerance=TOLERANCE, set=None, sets=None, parameter=[])
 
 
 def _export(options: argparse.Namespace) -> int:
     from ..model.exchange.export import solids_to_write
     from ..model.exchange.meshes_out import check_ending, write_meshes
+    from .shell.parameters import read_with_values
 
     out = Path(options.out)
     project = out.suffix.lower() == ".solidtree"
     if not project:
         _about(options.out, lambda: check_ending(out))
-    document = read(options.file)
+    document = read_with_values(options)
     if project:
         from ..model.project.project_file import save_project
 
@@ -197,6 +209,22 @@ def _about(file: str, act: Callable[[], Any]) -> None:
         raise SystemExit(_complain(file, str(refusal))) from None
 
 
+def _diagram_options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
+    command.add_argument("out", metavar="OUT.svg")
+    command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all")
+
+
+def _diagram(options: argparse.Namespace) -> int:
+    from ..render.drawing.csg_diagram import diagram
+
+    out = Path(options.out)
+    if out.suffix.lower() != ".svg":
+        return _complain(out, "a diagram is written as SVG; let the name end in .svg")
+    diagram(read(options.file), out, options.solid)
+    return DONE
+
+
 def _run_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="SCRIPT.py")
     command.add_argument("arguments", metavar="ARG", nargs=argparse.REMAINDER, help="handed to the script in sys.argv")
@@ -208,6 +236,7 @@ def _run(options: argparse.Namespace) -> int:
     import traceback
 
     from ..model import script
+    from ..render.drawing.csg_diagram import diagram
 
     path = Path(options.file)
     try:
@@ -218,7 +247,7 @@ def _run(options: argparse.Namespace) -> int:
         return _complain(path, str(error))
     sys.argv = [options.file, *options.arguments]
     sys.path.insert(0, str(path.parent.resolve()))
-    names = {name: getattr(script, name) for name in script.__all__}
+    names = {name: getattr(script, name) for name in script.__all__} | {"diagram": diagram}
     try:
         exec(code, {**names, "__name__": "__main__", "__file__": str(path), "__builtins__": builtins})
     except Exception as error:
@@ -230,16 +259,40 @@ def _run(options: argparse.Namespace) -> int:
     return DONE
 
 
+def _sets_options(command: argparse.ArgumentParser) -> None:
+    from .shell.parameters import add_sets_options
+
+    add_sets_options(command)
+
+
+def _sets(options: argparse.Namespace) -> int:
+    from .shell.parameters import sets
+
+    return sets(options)
+
+
 def _render_options(command: argparse.ArgumentParser) -> None:
-    from .command_render import add_options
+    from .shell.render import add_options
 
     add_options(command)
 
 
 def _render(options: argparse.Namespace) -> int:
-    from .command_render import render
+    from .shell.render import render
 
     return render(options)
+
+
+def _section_options(command: argparse.ArgumentParser) -> None:
+    from .shell.section import add_options
+
+    add_options(command)
+
+
+def _section(options: argparse.Namespace) -> int:
+    from .shell.section import section
+
+    return section(options)
 
 
 _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[argparse.Namespace], int], str]] = {
@@ -247,6 +300,9 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
     "export": (_export_options, _export, "write a mesh file: stl, 3mf, obj, ply, off or glb by OUT's ending"),
     "convert": (_convert_options, _export, "turn one file into another format"),
     "render": (_render_options, _render, "a picture as PNG"),
+    "sets": (_sets_options, _sets, "the saved sets of parameter values, as JSON of OpenSCAD's customizer, or as CSV"),
+    "section": (_section_options, _section, "the outlines in which a plane cuts the solids, as SVG or DXF"),
+    "diagram": (_diagram_options, _diagram, "the CSG diagram of the tree as SVG"),
     "run": (_run_options, _run, "run a script with the names of solidtree.model.script at hand"),
 }
 

@@ -89,11 +89,47 @@ def ask_open_path(parent: QWidget, folder: str, title: str, then: Callable[[str]
     dialog.open()
 
 
+def ask_sets_path(parent: QWidget, start: Path, write: bool, then: Callable[[str], None]) -> None:
+    """Which file to read sets of parameter values from, or to write them to."""
+    both, json, csv = "Sets of values (*.json *.csv)", "OpenSCAD's customizer (*.json)", "Table (*.csv)"
+    folder = start.parent if write else start
+    title = "Export sets" if write else "Import sets"
+    dialog = _file_dialog(parent, title, str(folder), [json, csv] if write else [both, "All files (*)"], then)
+    if write:
+        dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+        dialog.setDefaultSuffix("json")
+        dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix("csv" if chosen == csv else "json"))
+        dialog.selectFile(start.name)
+    else:
+        dialog.setFileMode(QFileDialog.FileMode.ExistingFile)
+    dialog.open()
+
+
 def ask_save_path(parent: QWidget, suggestion: Path, then: Callable[[str], None]) -> None:
     dialog = _file_dialog(parent, "Save as", str(suggestion.parent), ["Projects (*.solidtree)"], then)
     dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
     dialog.setDefaultSuffix("solidtree")
     dialog.selectFile(suggestion.name)
+    dialog.open()
+
+
+def ask_diagram_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
+    """Which file to write the diagram of the tree to."""
+    dialog = _file_dialog(parent, "Export diagram", str(start.parent), ["SVG drawing (*.svg)"], then)
+    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+    dialog.setDefaultSuffix("svg")
+    dialog.selectFile(start.name)
+    dialog.open()
+
+
+def ask_outline_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
+    """Which file to write the outlines of a section to."""
+    svg, dxf = "SVG drawing (*.svg)", "DXF drawing, a layer for each solid (*.dxf)"
+    dialog = _file_dialog(parent, "Export outlines", str(start.parent), [svg, dxf], then)
+    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+    dialog.setDefaultSuffix("svg")
+    dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix("dxf" if chosen == dxf else "svg"))
+    dialog.selectFile(start.name)
     dialog.open()
 
 

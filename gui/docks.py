@@ -13,7 +13,12 @@ LEFT, RIGHT, BOTTOM = 250, 290, 150  # pixels
 def arrange(
     window: QMainWindow, left: Mapping[str, QWidget], right: Mapping[str, QWidget], bottom: Mapping[str, QWidget]
 ) -> dict[str, QDockWidget]:
-    """Docks by title; several on a side stand behind one another as tabs, the first one in front."""
+    """Docks by title; several on a side stand behind one another as tabs, the first one in front.
+
+    The window's layout is left switched off, for the caller to restore a state and then switch it on: Qt would leave
+    a tab bar in the picture from every layout on the way.
+    """
+    switch_layout(window, False)
     areas = Qt.DockWidgetArea
     window.setTabPosition(areas.BottomDockWidgetArea, QTabWidget.TabPosition.North)
     window.setTabPosition(areas.RightDockWidgetArea, QTabWidget.TabPosition.North)
@@ -22,21 +27,36 @@ def arrange(
     window.setCorner(Qt.Corner.BottomRightCorner, areas.RightDockWidgetArea)
     window.setDockOptions(QMainWindow.DockOption.AllowTabbedDocks | QMainWindow.DockOption.AllowNestedDocks)
     docks: dict[str, QDockWidget] = {}
-    for area, widgets, size in (
-        (areas.LeftDockWidgetArea, left, LEFT),
-        (areas.RightDockWidgetArea, right, RIGHT),
-        (areas.BottomDockWidgetArea, bottom, BOTTOM),
+    for area, widgets in (
+        (areas.LeftDockWidgetArea, left),
+        (areas.RightDockWidgetArea, right),
+        (areas.BottomDockWidgetArea, bottom),
     ):
         beside = [_dock(window, title, widget, area, len(widgets) > 1) for title, widget in widgets.items()]
         for dock in beside[1:]:
             window.tabifyDockWidget(beside[0], dock)
         if beside:
-            upright = area != areas.BottomDockWidgetArea
-            direction = Qt.Orientation.Horizontal if upright else Qt.Orientation.Vertical
-            window.resizeDocks(beside[:1], [size], direction)
             beside[0].raise_()
         docks |= zip(widgets, beside, strict=True)
     return docks
+
+
+def switch_layout(window: QMainWindow, on: bool) -> None:
+    layout = window.layout()
+    if layout is not None:
+        layout.setEnabled(on)
+
+
+def give_sizes(window: QMainWindow) -> None:
+    """The sizes that the docks have at first, in a window that is on the screen; before, Qt would scale them."""
+    areas = Qt.DockWidgetArea
+    for area, size, direction in (
+        (areas.LeftDockWidgetArea, LEFT, Qt.Orientation.Horizontal),
+        (areas.RightDockWidgetArea, RIGHT, Qt.Orientation.Horizontal),
+        (areas.BottomDockWidgetArea, BOTTOM, Qt.Orientation.Vertical),
+    ):
+        beside = [dock for dock in window.findChildren(QDockWidget) if window.dockWidgetArea(dock) == area]
+        window.resizeDocks(beside[:1], [size], direction)
 
 
 def _dock(window: QMainWindow, title: str, widget: QWidget, area: Qt.DockWidgetArea, tabbed: bool) -> QDockWidget:

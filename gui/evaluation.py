@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
-from ..model.document.document import Document
+from ..model.document.document import Document, Section
 from ..model.document.tree import walk
 from ..model.editing.session import Session, State
 
@@ -67,8 +67,8 @@ class Evaluation(QObject):
         self._closed = False
         self._asked: tuple[Document, float] | None = None
         self._request: int | None = None
-        self._asked_on_the_way = False  # of a drag
-        self._again = False
+        self._drag: int | None = None
+        """The first request of the drag under way: answers from there on are shown, though newer ones are asked for."""
         self._is_busy = False
         self._exports: set[int] = set()
         self.latest: Shown | None = None
@@ -109,6 +109,11 @@ class Evaluation(QObject):
         return unborn or self._soon.isActive() or self._request is not None
 
     @property
+    def examining(self) -> bool:
+        """Whether `parts` may tell of an earlier document or selection."""
+        return self.waiting or self._look.isActive() or self._examination is not None
+
+    @property
     def exporting(self) -> bool:
         return bool(self._exports)
 
@@ -116,9 +121,9 @@ class Evaluation(QObject):
         """Ask once for each pass of the event loop, however many changes it held."""
         if self.lane is None:
             return  # it will be asked for what there is then
-        if self._session.previewing and self._asked is not None and same_shape(self._asked[0], after.document):
+        if self._session.previewing and self._asked is not None and same_shape(self._asked[0], self._session.view):
             return  # a colour, say: nothing to cut
-        if self._asked is None or self._asked[0] is not after.document or self._asked[1] != self._tolerance():
+        if self._asked is None or self._asked[0] is not self._session.view or self._asked[1] != self._tolerance():
             self._soon.start(0)
         elif before.selection != after.selection:
             self._look.start(0)
@@ -143,13 +148,18 @@ class Evaluation(QObject):
         self._rest()
 
     def export(
-        self, document: Document, path: str | Path, tolerance: float | None = None, solid: str | None = None
+        self,
+        document: Document,
+        path: str | Path,
+        tolerance: float | None = None,
+        solid: str | None = None,
+        section: Section | None = None,
     ) -> None:
-        """Write a mesh file; `exported` tells when that is done."""
+        """Write a mesh file, or of a section its outlines; `exported` tells when that is done."""
         if self.jobs is None:
             self.jobs = self._make_lane(self._told_of_job.emit)
             self.jobs.start()
-        self._exports.add(self.jobs.export(document, path, tolerance or self._tolerance(), solid))
+        self._exports.add(self.jobs.export(document, path, tolerance or self._tolerance(), solid, section))
         self._patience.start()
 
     def close(self) -> None:
@@ -199,12 +209,14 @@ class Evaluation(QObject):
     def _ask(self) -> None:
         if self.lane is None:
             return
-        if self._session.previewing and self._request is not None and self._asked_on_the_way:
-            self._again = True  # one after the other: superseding each would show none of a drag
-            return
-        self._again, self._asked_on_the_way = False, self._session.previewing
-        self._asked = (self._session.document, self._tolerance())
-        self._request = self.lane.evaluate(*self._asked)
+        previewing = self._session.previewing
+        self._asked = (self._session.view, self._tolerance())
+        # Superseding each preview by the next would show none of a drag.
+        self._request = self.lane.evaluate(*self._asked, supersedes=not previewing)
+        if not previewing:
+            self._drag = None
+        elif self._drag is None:
+            self._drag = self._request
         if not self._is_busy and not self._patience.isActive():
             self._patience.start()
 
@@ -215,11 +227,10 @@ class Evaluation(QObject):
             return
         match message:
             case Evaluated():
-                if message.request != self._request:
+                if message.request == self._request:
+                    self._request = None
+                elif self._drag is None or message.request < self._drag:
                     return  # stale: a newer document has been asked for
-                self._request = None
-                if self._again:
-                    self._ask()
                 self._rest()
                 self.latest = message.shown
                 self.shown.emit(message.shown, message.seconds)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal
 
-from ..model.document.document import Document
+from ..model.document.document import Document, Section
 from ..model.document.errors import Refusal
-from ..model.editing.operations import OPERATIONS
 from ..model.editing.session import Session
+from ..model.operations.operations import OPERATIONS
 from . import dialogs
 from .background import Background
 from .settings import Settings
@@ -175,10 +175,17 @@ class Files(QObject):
         start = Path(self._settings.folder, self.name)
         dialogs.ExportDialog(self._window, start, names, self.export).open()
 
-    def export(self, path: str | Path, tolerance: float | None = None, solid: str | None = None) -> None:
+    def export(
+        self,
+        path: str | Path,
+        tolerance: float | None = None,
+        solid: str | None = None,
+        section: Section | None = None,
+    ) -> None:
+        """Write a mesh file, or of a section its outlines."""
         self._settings.folder = Path(path).parent
         self._session.cancel()
-        self._evaluation.export(self._session.document, path, tolerance, solid)
+        self._evaluation.export(self._session.document, path, tolerance, solid, section)
         self.notice.emit(f"Exporting {Path(path).name}")
 
     def _exported(self, path: str, fault: str) -> None:

@@ -7,13 +7,14 @@ from functools import cache
 from importlib.resources import files
 
 from PySide6.QtCore import QByteArray, QRect, QRectF, QSize, Qt
-from PySide6.QtGui import QGuiApplication, QIcon, QIconEngine, QPainter, QPalette, QPixmap
+from PySide6.QtGui import QColor, QGuiApplication, QIcon, QIconEngine, QPainter, QPalette, QPixmap
 from PySide6.QtSvg import QSvgRenderer
 
 from .. import resources
 from ..model.document.nodes import Node
 from ..model.editing.echo import function_name
 
+INK = "#1d242d"
 Colour = str | Callable[[], str] | None
 _pixmaps: dict[tuple[str, int, str], QPixmap] = {}
 
@@ -76,6 +77,44 @@ class _Engine(QIconEngine):
         return _Engine(self._name, self._colour)
 
 
+class _Chip(QIconEngine):
+    """The icon in dark ink on a ground of a light colour, the same in every mode."""
+
+    def __init__(self, name: str, ground: str) -> None:
+        super().__init__()
+        self._name = name
+        self._ground = ground
+
+    def paint(self, painter: QPainter, rect: QRect, mode: QIcon.Mode, state: QIcon.State) -> None:
+        side = min(rect.width(), rect.height())
+        ratio = painter.device().devicePixelRatio() if painter.device() else 1.0
+        target = QRect(0, 0, side, side)
+        target.moveCenter(rect.center())
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(QColor(self._ground))
+        painter.drawRoundedRect(target, 0.2 * side, 0.2 * side)
+        margin = round(0.1 * side)
+        inner = target.adjusted(margin, margin, -margin, -margin)
+        painter.drawPixmap(inner, pixmap(self._name, max(1, round(inner.width() * ratio)), INK))
+        painter.restore()
+
+    def pixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State) -> QPixmap:
+        return self.scaledPixmap(size, mode, state, 1.0)
+
+    def scaledPixmap(self, size: QSize, mode: QIcon.Mode, state: QIcon.State, scale: float) -> QPixmap:
+        picture = QPixmap(size)
+        picture.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(picture)
+        self.paint(painter, QRect(0, 0, size.width(), size.height()), mode, state)
+        painter.end()
+        return picture
+
+    def clone(self) -> QIconEngine:
+        return _Chip(self._name, self._ground)
+
+
 def icon(name: str, colour: Colour = None) -> QIcon:
     """The icon of this name, in a colour of its own or the text's; a null icon where the set has none."""
     return QIcon(_Engine(name, colour)) if _text(name) else QIcon()
@@ -85,6 +124,12 @@ def icon(name: str, colour: Colour = None) -> QIcon:
 def kind_icon(kind: type[Node]) -> QIcon:
     """The picture of a kind of node."""
     return icon(function_name(kind))
+
+
+@cache
+def chip_icon(kind: type[Node], ground: str) -> QIcon:
+    """The picture of a kind of node on a ground of a light colour, `#rrggbb`."""
+    return QIcon(_Chip(function_name(kind), ground))
 
 
 def severity_icon(error: bool) -> QIcon:

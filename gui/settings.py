@@ -1,13 +1,14 @@
-"""What the window remembers between two runs: layout, theme, recent files, the last folder."""
+"""What the window remembers between two runs: layout, theme, shortcuts, recent files and commands, the last folder."""
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QSettings
 
 RECENT = 10
-LAYOUT_VERSION = 1
+LAYOUT_VERSION = 2
 
 
 class Settings:
@@ -42,6 +43,29 @@ class Settings:
     def forget_recent(self, path: str | Path | None = None) -> None:
         """Take one path out of the list, or all."""
         self._store.setValue("recent", [] if path is None else [old for old in self.recent if old != str(path)])
+
+    @property
+    def recent_commands(self) -> list[str]:
+        """Names of the commands run from the palette last, newest first."""
+        value = self._store.value("commands", [])
+        names = [value] if isinstance(value, str) else list(value or [])  # type: ignore[call-overload]
+        return [str(name) for name in names][:RECENT]
+
+    def add_recent_command(self, name: str) -> None:
+        self._store.setValue("commands", [name, *(old for old in self.recent_commands if old != name)][:RECENT])
+
+    @property
+    def shortcuts(self) -> dict[str, str]:
+        """The user's own shortcuts by the command's name, where they are not the defaults; "" for none."""
+        try:
+            table = json.loads(str(self._store.value("shortcuts", "{}")))
+        except ValueError:
+            return {}
+        return {str(name): str(keys) for name, keys in table.items()} if isinstance(table, dict) else {}
+
+    @shortcuts.setter
+    def shortcuts(self, value: dict[str, str]) -> None:
+        self._store.setValue("shortcuts", json.dumps(value))
 
     @property
     def folder(self) -> str:

@@ -6,11 +6,11 @@ from html import escape
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QStatusBar, QToolButton, QWidget
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QSizePolicy, QStatusBar, QToolButton, QWidget
 
 from ..model.document.document import Document
-from ..model.document.errors import Refusal
-from ..model.document.tree import trail
+from ..model.document.tree import homes
 from .icons import icon, severity_icon
 
 LASTING = 8000  # milliseconds that a message stays
@@ -32,19 +32,31 @@ def shown_solids(document: Document, selection: tuple[str, ...], shown: Any) -> 
     """What the status bar sums up, in words, and the measured solids: those that hold the selection, or all visible."""
     if shown is None:
         return "", []
-    roots = [root.id for root in document.solids]
-    chosen = []
-    for node_id in selection:
-        try:
-            chosen.append(trail(document, node_id)[0].id)
-        except Refusal:
-            continue
-    chosen = list(dict.fromkeys(root for root in chosen if root in roots))
+    roots = {root.id for root in document.solids}
+    chosen = [root for root in homes(document, selection) if root in roots]
     wanted = chosen or [root.id for root in document.solids if root.visible]
     solids = [shown.solids[root] for root in wanted if root in shown.solids and shown.solids[root].measures is not None]
     count = len(wanted)
     words = "" if count == 1 else f"{count} selected" if chosen else f"{count} solids"
     return words, solids
+
+
+class _Shortened(QLabel):
+    """A line that never makes its window wider: what does not fit is left out in the middle."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        room = self.contentsRect()
+        text = self.fontMetrics().elidedText(self.text(), Qt.TextElideMode.ElideMiddle, room.width())
+        painter = QPainter(self)
+        self.style().drawItemText(
+            painter, room, Qt.AlignmentFlag.AlignVCenter, self.palette(), self.isEnabled(), text, self.foregroundRole()
+        )
+        painter.end()
 
 
 class StatusBar(QStatusBar):
@@ -56,7 +68,7 @@ class StatusBar(QStatusBar):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setSizeGripEnabled(False)
-        self.hover = QLabel(self)
+        self.hover = _Shortened(self)
         self.problem = QToolButton(self)
         self.problem.setObjectName("problem")
         self.problem.setProperty("flat", True)
@@ -64,6 +76,7 @@ class StatusBar(QStatusBar):
         self.problem.clicked.connect(self.problems_asked)
         self.problem.hide()
         self._problem = ""
+        self._hint = ""
         self.messageChanged.connect(self._follow_message)
         self.addWidget(self.problem)
         self.addWidget(self.hover, 1)
@@ -103,6 +116,12 @@ class StatusBar(QStatusBar):
         else:
             self.clearMessage()
 
+    def set_hint(self, text: str) -> None:
+        """What to do next in a tool, for as long as nothing else has to be said; "" ends it."""
+        before, self._hint = self._hint, text
+        if self.currentMessage() in ("", before):
+            self.showMessage(text)
+
     def set_hover(self, text: str) -> None:
         self.hover.setText(text)
 
@@ -136,6 +155,8 @@ class StatusBar(QStatusBar):
             self.problem.setToolTip(f"{escape(text)}<br>Click to see all problems")
 
     def _follow_message(self) -> None:
+        if self._hint and not self.currentMessage():
+            self.showMessage(self._hint)
         # A passing message has the place to itself.
         self.problem.setVisible(bool(self._problem) and not self.currentMessage())
 

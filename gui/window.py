@@ -7,30 +7,51 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer
-from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QApplication, QMainWindow
 
-from ..model.document.tree import trail
 from ..model.editing.commands import DOCUMENT_COMMANDS
 from ..model.editing.session import Session, State
-from .actions import Actions
-from .docks import arrange
+from ..model.editing.tree_commands import TREE_COMMANDS
+from .commands.actions import Actions
+from .commands.arrange import ARRANGE_COMMANDS
+from .commands.handles import HANDLE_COMMANDS
+from .commands.measure import MEASURE_COMMANDS
+from .commands.menus import fill_menus
+from .commands.parameters import PARAMETER_COMMANDS
+from .commands.sections import SECTION_COMMANDS
+from .commands.views import FILE_COMMANDS, TOOL_BAR, VIEW_COMMANDS
+from .docks import arrange, give_sizes, switch_layout
 from .evaluation import Evaluation
 from .files import Files
-from .menus import fill_menus
-from .palette import Palette
-from .panels.parameters import Parameters
+from .looks import Looks
+from .palette.palette import Palette
+from .panels.figures import FigureUse
+from .panels.measured import measured
+from .panels.measurements import Measurements
 from .panels.problems import Problems
 from .panels.properties import Properties
 from .panels.script_log import ScriptLog
+from .panels.sections import Sections
+from .parameters.parameters import Parameters
 from .settings import LAYOUT_VERSION, Settings
 from .status import StatusBar, shown_solids
 from .theme import Theme
+from .tools.handles import Handles
+from .tools.measure import MeasureTool
+from .tools.place_on_face import PlaceOnFace
+from .tools.section_tool import SectionTool
+from .tools.tool_menu import SpaceBar
+from .tree.diagram import Diagram
+from .tree.edit_commands import EDIT_COMMANDS
+from .tree.model_panel import ModelPanel
 from .tree.tree import Tree
+from .view.ghosts import OperandGhosts
+from .view.isolation import IsolationCard
 from .view.thumbnail import thumbnail
 from .view.viewport import Viewport
 from .view.welcome import Welcome
-from .window_commands import FILE_COMMANDS, TOOL_BAR, VIEW_COMMANDS
+from .wiring import connect
 
 if TYPE_CHECKING:
     from ..model.worker.shown import Shown
@@ -52,17 +73,33 @@ class MainWindow(QMainWindow):
         assert isinstance(application, QApplication)
         self.theme = theme or Theme(application, self.settings, self)
         self.evaluation = Evaluation(self.session, self)
-        self.parallel, self.grid = self.settings.flag("parallel", False), self.settings.flag("grid", True)
-        self.style_name = "edges"
+        self.looks = Looks(self)
         self._closing = False
 
         self.viewport = Viewport(self.session, self)
         self.setCentralWidget(self.viewport)
+        self.operand_ghosts = OperandGhosts(self.viewport, self.session, self.evaluation, self.looks.ghosts)
+        self.viewport.add_tool(self.operand_ghosts)
         self.files = Files(self, self.session, self.evaluation, self.settings, self._picture)
-        self.actions_ = Actions(self)
+        self.actions_ = Actions(self, self.settings)
         self.actions_.add(FILE_COMMANDS, self)
+        self.actions_.add(PARAMETER_COMMANDS, self)
         self.actions_.add(DOCUMENT_COMMANDS, self.session)
+        self.actions_.add(TREE_COMMANDS, self.session)
+        self.actions_.add(EDIT_COMMANDS, self)
         self.actions_.add(VIEW_COMMANDS, self)
+        self.section_tool = SectionTool(self.session, self.viewport, self)
+        self.viewport.add_tool(self.section_tool)
+        self.actions_.add(SECTION_COMMANDS, self)
+        self.handles = Handles(self.viewport, self.session, self.settings, lambda: self.looks.ghosts)
+        self.viewport.add_tool(self.handles)
+        self.actions_.add(HANDLE_COMMANDS, self)
+        self.place_on_face = PlaceOnFace(self.session, self.viewport, lambda i: self.evaluation.parts.get(i), self)
+        self.viewport.add_tool(self.place_on_face)
+        self.measure = MeasureTool(self.session, self.viewport, self)
+        self.viewport.add_tool(self.measure)
+        self.actions_.add(MEASURE_COMMANDS, self)
+        self.actions_.add(ARRANGE_COMMANDS, self)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()
@@ -73,16 +110,17 @@ class MainWindow(QMainWindow):
         tools.setMovable(False)
         self.actions_.fill_tool_bar(tools, TOOL_BAR)
         self.docks_menu_entries.append(tools.toggleViewAction())
+        self.viewport.add_tool(self.space_bar)
         self.welcome = Welcome(self.actions_, self.viewport)
+        self.isolation = IsolationCard(self.session, self.actions_, self.viewport)
         self.setAcceptDrops(True)
-        self._connect()
+        self._unlisten = self.session.on_change(self._changed)
+        connect(self)
         self._restore()
-        self._follow_title()
-        self._follow_recent()
+        self.follow_title()
+        self.follow_recent()
         self._changed(self.session.state, self.session.state)
-        self.set_parallel(self.parallel)
-        self.set_grid(self.grid)
-        self.set_style(self.style_name)
+        self.looks.apply()
 
     def start(self, paths: list[str] | None = None) -> None:
         """Load VTK once the window is on the screen, or soon where it is not to be seen; then open the files."""
@@ -105,58 +143,56 @@ class MainWindow(QMainWindow):
 
     def _make_docks(self) -> None:
         self.tree = Tree(self.session, self.actions_, self)
-        self.properties = Properties(self.session, self)
+        self.model_panel = ModelPanel(self.session, self.tree, self)
+        self.diagram = Diagram(self.session, self.actions_, self)
+        self.figure_use = FigureUse(self.session, self)
+        self.properties = Properties(self.session, self.figure_use, self)
         self.parameters = Parameters(self.session, self)
         self.problems = Problems(self.session, self)
+        self.measurements = Measurements(self.figure_use, self)
+        self.sections = Sections(self.session, self.section_tool, self.actions_, self.section_tool.figures, self)
         self.script = ScriptLog(self.session, self)
         self.docks = arrange(
             self,
-            left={"Model": self.tree},
-            right={"Properties": self.properties},
-            bottom={"Parameters": self.parameters, "Problems": self.problems, "Script": self.script},
+            left={"Model": self.model_panel, "Diagram": self.diagram},
+            right={"Properties": self.properties, "Parameters": self.parameters},
+            bottom={
+                "Problems": self.problems,
+                "Sections": self.sections,
+                "Script": self.script,
+                "Measure": self.measurements,
+            },
         )
-
-    def _connect(self) -> None:
-        self._unlisten = self.session.on_change(self._changed)
-        say = self.status.say
-        for part in (self.tree, self.properties, self.parameters, self.actions_):
-            part.refused.connect(say)
-        self.evaluation.notice.connect(say)
-        self.files.notice.connect(say)
-        self.files.path_changed.connect(self._follow_title)
-        self.files.path_changed.connect(self._follow_recent)
-        self.files.opened.connect(self._opened)
-        self.files.background.busy.connect(lambda words: say(words + " …" if words else ""))
-        self.evaluation.shown.connect(self._shown)
-        self.evaluation.busy.connect(self._busy)
-        self.evaluation.outdated.connect(self.status.set_outdated)
-        self.evaluation.progress.connect(self.status.set_progress)
-        self.status.cancel_asked.connect(self.evaluation.cancel)
-        self.status.problems_asked.connect(self._show_problems)
-        self.viewport.hovered.connect(self.status.set_hover)
-        self.problems.counted.connect(self._count_problems)
-        self.theme.changed.connect(lambda name: self.viewport.change(lambda viewer: viewer.set_theme(name)))
-        self.theme.changed.connect(self._retint)
-        self.welcome.open_asked.connect(self.files.open)
 
     # What happens.
 
     def _changed(self, before: State, after: State) -> None:
         after = self.session.state  # an earlier listener may have gone on
-        for part in (self.tree, self.viewport, self.evaluation, self.properties, self.parameters, self.script):
+        for part in (
+            self.tree,
+            self.model_panel,
+            self.diagram,
+            self.viewport,
+            self.evaluation,
+            self.properties,
+            self.parameters,
+            self.sections,
+            self.script,
+        ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)
         if self.session.previewing:
             return
         self.welcome.set_empty(not after.document.roots)
+        self.isolation.follow()
         if before.selection != after.selection:
-            self._measure()
+            self.measure_selection()
         for name, label in (("undo", self.session.undo_label), ("redo", self.session.redo_label)):
             title = name.capitalize()
             self.actions_[name].setText(f"{title} {label[0].lower()}{label[1:]}" if label else title)
         self.actions_.refresh()
 
-    def _shown(self, shown: Shown, seconds: float) -> None:
+    def shown(self, shown: Shown, seconds: float) -> None:
         if shown.solids or not any(problem.error and not problem.node_id for problem in shown.problems):
             self.viewport.show_meshes(
                 {root: solid.mesh for root, solid in shown.solids.items() if solid.mesh is not None}
@@ -165,36 +201,35 @@ class MainWindow(QMainWindow):
         self.problems.set_problems(shown.problems)
         self.status.set_problem(next((problem.message for problem in shown.problems if problem.error), ""))
         self.status.set_time(seconds)
-        self._measure()
+        self.measure_selection()
         self.actions_.refresh()
 
-    def _measure(self) -> None:
+    def measure_selection(self) -> None:
         shown, selection, document = self.evaluation.latest, self.session.selection, self.session.document
-        self.status.set_measures(*shown_solids(document, selection, shown))
-        measures = None
-        if shown is not None and selection:
-            known = {root.id for root in document.solids}
-            roots = {trail(document, node_id)[0].id for node_id in selection} & known
-            solids = [shown.solids[root] for root in roots if root in shown.solids]
-            measures = solids[0].measures if len(roots) == 1 and solids else None
-        self.properties.set_measures(measures)
+        self.status.set_measures(*shown_solids(self.session.view, selection, shown))
+        self.properties.set_measures(measured(document, selection, shown, self.evaluation.parts))
 
-    def _busy(self, busy: bool) -> None:
+    def examined(self) -> None:
+        if not self.session.previewing:
+            self.actions_.refresh()
+
+    def busy(self, busy: bool) -> None:
         self.status.set_busy(busy)
         self.actions_.refresh()
 
-    def _show_problems(self) -> None:
+    def show_problems(self) -> None:
         self.docks["Problems"].show()
         self.docks["Problems"].raise_()
 
-    def _count_problems(self, count: int) -> None:
+    def count_problems(self, count: int) -> None:
         self.docks["Problems"].setWindowTitle(f"Problems ({count})" if count else "Problems")
 
-    def _opened(self) -> None:
+    def opened(self) -> None:
         self.viewport.fit_next()
         self.tree.document_opened()
+        self.diagram.document_opened()
 
-    def _retint(self) -> None:
+    def retint(self) -> None:
         self.properties.rebuild()
         self.actions_.refresh()
 
@@ -202,38 +237,33 @@ class MainWindow(QMainWindow):
 
     @cached_property
     def palette_(self) -> Palette:
-        return Palette(self.actions_, self)
+        return Palette(self)
 
-    def set_style(self, name: str) -> None:
-        self.style_name = name
-        self.viewport.change(lambda viewer: viewer.set_style(name))
-        self.actions_.refresh()
+    @cached_property
+    def space_bar(self) -> SpaceBar:
+        return SpaceBar(self)
 
-    def set_parallel(self, parallel: bool) -> None:
-        self.parallel = parallel
-        self.settings.set_flag("parallel", parallel)
-        self.viewport.change(lambda viewer: viewer.set_projection(parallel))
-        self.actions_.refresh()
+    def show_search(self) -> None:
+        self.docks["Model"].show()
+        self.docks["Model"].raise_()
+        self.model_panel.start()
 
-    def set_grid(self, visible: bool) -> None:
-        self.grid = visible
-        self.settings.set_flag("grid", visible)
-        self.viewport.change(lambda viewer: viewer.set_ground(visible))
-        self.actions_.refresh()
-
-    def show_about(self) -> None:
-        from .dialogs import about
-
-        about(self)
+    def show_diagram(self) -> None:
+        """Bring the diagram to the front, or the list where the diagram is there already."""
+        shown = self.diagram.in_front
+        dock = self.docks["Model" if shown else "Diagram"]
+        dock.show()
+        dock.raise_()
+        (self.tree if shown else self.diagram).setFocus()
 
     # The file and the layout.
 
-    def _follow_title(self) -> None:
+    def follow_title(self) -> None:
         self.setWindowTitle(f"{self.files.name}[*] \u2013 Solidtree")
         self.setWindowFilePath("" if self.files.path is None else str(self.files.path))
         self.setWindowModified(self.session.modified)
 
-    def _follow_recent(self) -> None:
+    def follow_recent(self) -> None:
         self.welcome.set_recent(self.settings.recent)
 
     def _picture(self) -> bytes | None:
@@ -244,8 +274,14 @@ class MainWindow(QMainWindow):
         geometry, state = self.settings.layout()
         if geometry.isEmpty() or not self.restoreGeometry(geometry):
             self.resize(1280, 820)
-        if not state.isEmpty():
-            self.restoreState(state, LAYOUT_VERSION)
+        self._unsized = state.isEmpty() or not self.restoreState(state, LAYOUT_VERSION)
+        switch_layout(self, True)
+
+    def showEvent(self, event: QShowEvent) -> None:
+        super().showEvent(event)
+        if self._unsized:
+            self._unsized = False
+            give_sizes(self)
 
     def closeEvent(self, event: QCloseEvent) -> None:
         if not self._closing and self.session.modified:

@@ -2,7 +2,8 @@
 
 Everything is a value: a call returns a new one. Lengths are millimetres and angles degrees; any number may be an
 expression, as text or made from `parameter`. The methods of a solid place and dress it, in call order, about the
-world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `coloured`, `noted`, `hidden`.
+world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `coloured`, `noted`, `hidden`. The nodes
+of an open document are placed by `move`, `turn` and `scale`, operations that the window's script log shows.
 """
 
 # Nodes take numbers as text too, and keep them as expressions; their types tell what they keep.
@@ -11,7 +12,7 @@ world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `c
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -48,7 +49,7 @@ from .document.primitives import (
     Torus,
 )
 from .document.tree import numbered, unique_name, walk
-from .editing.parameters import declared, names_of
+from .operations.parameters import declared, names_of
 
 Value = Number | str | int
 """A number, an expression, or an expression's text."""
@@ -400,7 +401,8 @@ def evaluate(*solids: Node | Document, tolerance: float = 0.05):
 
 
 def measure(solid: Node, tolerance: float = 0.05):
-    """Volume, area, bounds, centroid, triangles, components and genus of a solid. Raises Refusal where it has none.
+    """Volume, area, bounds, centroid, triangles, components, genus, inertia about the centroid (density 1), principal
+    moments and axes of a solid. Raises Refusal where it has none.
 
     >>> measure(box(10)).area
     600.0
@@ -412,11 +414,134 @@ def measure(solid: Node, tolerance: float = 0.05):
     return measures
 
 
+def thinnest_wall(solid: Node, rays: int = 2000, tolerance: float = 0.05):
+    """An estimate of a solid's least wall, as `length`, `point` and `exit`: the shortest of `rays` rays inwards from
+    points spread over the surface. Thinner spots that no ray begins at are missed. Raises Refusal where none is.
+
+    >>> round(thinnest_wall(box(20, 20, 3)).length, 9)
+    3.0
+    """
+    from .measuring.thickness import thinnest
+
+    result = evaluate(solid, tolerance=tolerance).solids[0]
+    if result.solid is None:
+        raise Refusal(next(message.message for message in result.messages if message.error))
+    found = thinnest(result.solid, rays)
+    if found is None:
+        raise Refusal(f"“{solid.label}” has no wall: it is empty, or all of its faces meet at sharp angles")
+    return found
+
+
+def align(
+    *solids: Node | Iterable[Node],
+    axis: str = "x",
+    side: str = "min",
+    to: float | None = None,
+    tolerance: float = 0.05,
+) -> tuple[Node, ...]:
+    """Solids moved along an axis until their sides ("min", "middle" or "max") lie in one plane: that of the first one,
+    or the one at the coordinate `to`.
+
+    >>> low, high = align(box(10), box(4).at(0, 0, 50), axis="z", side="max")
+    >>> measure(high).bounds[1]
+    (4.0, 4.0, 10.0)
+    """
+    from .measuring.arrange import aligned
+
+    return _moved(solids, tolerance, lambda bounds: aligned(bounds, axis, side, to))
+
+
+def distribute(
+    *solids: Node | Iterable[Node], axis: str = "x", by: str = "gaps", tolerance: float = 0.05
+) -> tuple[Node, ...]:
+    """Three solids or more, moved along an axis so that the gaps between them are equal, or the steps from middle to
+    middle with `by="centres"`. The outermost two stay.
+
+    >>> first, second, third = distribute(box(10), box(10).at(11), box(10).at(40))
+    >>> measure(second).bounds[0]
+    (20.0, 0.0, 0.0)
+    """
+    from .measuring.arrange import spread
+
+    return _moved(solids, tolerance, lambda bounds: spread(bounds, axis, by))
+
+
+def dropped(solid: Node, height: float = 0, tolerance: float = 0.05) -> Node:
+    """A solid moved up or down until its lowest point is at z = `height`.
+
+    >>> measure(dropped(box(10).at(0, 0, 7))).bounds[0]
+    (0.0, 0.0, 0.0)
+    """
+    from .measuring.arrange import grounded
+
+    return _moved([solid], tolerance, lambda bounds: grounded(bounds, height))[0]
+
+
+def _moved(
+    solids: Iterable[Node | Iterable[Node]], tolerance: float, moves: Callable[[list[Any]], Any]
+) -> tuple[Node, ...]:
+    """Solids after the moves (n, 3) that a function gives for their bounds. Raises Refusal where one has none."""
+    nodes = _solids(solids)
+    bounds = [measure(node, tolerance).bounds for node in nodes]
+    for node, box_ in zip(nodes, bounds, strict=True):
+        if box_ is None:
+            raise Refusal(f"“{node.label}” is empty: it has no place")
+    return tuple(node.at(*map(float, by)) for node, by in zip(nodes, moves(bounds), strict=True))
+
+
+def section(
+    solid: Node, point: Sequence[float] = (0, 0, 0), normal: Sequence[float] = (0, 0, 1), tolerance: float = 0.05
+):
+    """The outline in which the plane through `point` cuts a solid, seen against `normal`, which points to the viewer.
+
+    It has `area`, `perimeter`, `centroid`, `bounds` and `contours`, outer ones counter-clockwise and holes clockwise,
+    in the plane's own coordinates: x and y of the world in a plane across z, seen from above. `save("cut.svg")` or
+    `save("cut.dxf")` writes it in millimetres. Raises Refusal.
+
+    >>> section(box(10) - box(4).at(3, 3, 3), (0, 0, 5)).area
+    84.0
+    """
+    from .section.solid_sections import document_sections
+
+    (found,), _ = document_sections(document_of(solid), point, normal, tolerance)
+    return found.outline
+
+
 def open_document(path: str | os.PathLike[str]) -> Document:
     """The document in a project file, or made of any file that can be imported."""
     from .exchange.meshes_in import read_any
 
     return read_any(Path(path))
+
+
+def with_parameters(document: Document, from_set: str = "", /, **values: Value | str) -> Document:
+    """A document with other values of its parameters: those of a saved set, if one is named, and then these.
+
+    >>> plate = document_of(plate=box(parameter("width", 10, maximum=50), 5, 1))
+    >>> with_parameters(plate, width=20).parameter("width").value
+    20.0
+    """
+    from .operations.parameter_sets import apply_set, set_parameters
+
+    return set_parameters(apply_set(document, from_set) if from_set else document, list(values.items()))
+
+
+def with_sets(document: Document, path: str | os.PathLike[str]) -> Document:
+    """A document with the sets of parameter values in a file: OpenSCAD's customizer JSON, or CSV.
+
+    What the document has no parameter for is left out.
+    """
+    from .exchange.set_files import read_sets
+    from .operations.parameter_sets import fitting_sets, put_sets
+
+    return put_sets(document, [(one.name, one.values) for one in fitting_sets(document, read_sets(path))[0]])
+
+
+def save_sets(path: str | os.PathLike[str], document: Document) -> None:
+    """Write a document's sets of parameter values to a file: OpenSCAD's customizer JSON, or CSV."""
+    from .exchange.set_files import write_sets
+
+    write_sets(path, document.sets)
 
 
 def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: float = 0.05, **named: Node) -> Document:
@@ -438,8 +563,9 @@ def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: floa
 
 
 __all__ = [
-    "Document", "Refusal", "at", "box", "circle", "cone", "cylinder", "difference", "document_from", "document_of",
-    "evaluate", "extrude", "halfspace", "hull", "imported_mesh", "instance", "intersection", "linear_array",
-    "measure", "mesh", "minkowski", "mirror", "mirrored", "open_document", "parameter", "polar_array", "polygon",
-    "polyhedron", "rectangle", "revolve", "save", "scaled", "sphere", "torus", "transformed", "turned", "union",
+    "Document", "Refusal", "align", "at", "box", "circle", "cone", "cylinder", "difference", "distribute",
+    "document_from", "document_of", "dropped", "evaluate", "extrude", "halfspace", "hull", "imported_mesh", "instance",
+    "intersection", "linear_array", "measure", "mesh", "minkowski", "mirror", "mirrored", "open_document", "parameter",
+    "polar_array", "polygon", "polyhedron", "rectangle", "revolve", "save", "save_sets", "scaled", "section", "sphere",
+    "thinnest_wall", "torus", "transformed", "turned", "union", "with_parameters", "with_sets",
 ]  # fmt: skip

@@ -123,7 +123,8 @@ class SolidActors:
     def _features_of(self, owners: NDArray[np.bool_]) -> NDArray[np.bool_]:
         if not owners.any():
             return np.zeros(len(self.mesh.edges), bool)
-        return owners[self.mesh.owner[self.mesh.edge_sides]].any(axis=1)
+        beside = owners[self.mesh.owner[self.mesh.edge_sides]]
+        return beside[:, 0] | beside[:, 1]
 
 
 def _actor(data: vtkPolyData, offset: bool = False) -> vtkActor:

@@ -8,6 +8,7 @@ device pixels alike.
 import itertools
 import math
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -47,14 +48,17 @@ class Camera:
         return self.parallel_scale if self.parallel else self.distance * _tangent(self)
 
 
+@lru_cache(maxsize=32)
 def frame(camera: Camera) -> Vectors:
-    """The camera's axes as rows (3, 3): right, up, and backward (from the target to the eye), all unit."""
+    """The camera's axes as rows (3, 3), read-only: right, up, and backward (from the target to the eye), all unit."""
     backward = _unit(np.subtract(camera.position, camera.target), (0.0, -1.0, 0.0))
     right = np.cross(camera.up, backward)
     if np.linalg.norm(right) < 1e-9 * max(np.linalg.norm(camera.up), 1e-300):
         right = np.cross(_turntable_up(backward, np.array([0.0, 1.0, 0.0])), backward)
     right = _unit(right, (1.0, 0.0, 0.0))
-    return np.array([right, np.cross(backward, right), backward])
+    axes = np.array([right, np.cross(backward, right), backward])
+    axes.flags.writeable = False
+    return axes
 
 
 def orbit(camera: Camera, dx_deg: float, dy_deg: float, pivot: ArrayLike | None = None) -> Camera:

@@ -48,6 +48,9 @@ class Look:
     cube_face: str
     cube_text: str
     cube_hover: str
+    ghost: str  # faces of operands that the result does not show
+    ghost_line: str  # their edges and hatch
+    cut: str  # half of the colour of cut faces
     grid_alpha: float = 0.30  # of minor lines; of major ones twice that
     ambient: float = 0.22
     diffuse: float = 0.9
@@ -75,6 +78,9 @@ LIGHT = Look(
     cube_face="#eef1f5",
     cube_text="#4a5563",
     cube_hover="#8fc1f5",
+    ghost="#86a0c2",
+    ghost_line="#2d5487",
+    cut="#ffffff",
 )
 DARK = Look(
     name="dark",
@@ -96,6 +102,9 @@ DARK = Look(
     cube_face="#3a424d",
     cube_text="#d5dce4",
     cube_hover="#3f78b5",
+    ghost="#7d9cc4",
+    ghost_line="#b9d2f2",
+    cut="#1c1f24",
     grid_alpha=0.16,
 )
 

@@ -36,6 +36,8 @@ class Pick:
     path: tuple[str | int, ...]
     facet: int
     subtracted: bool
+    section: str = ""
+    """The section whose cut face this is; then `triangle` and `facet` are -1 and the path is the solid's root."""
 
 
 class Picker:
@@ -45,8 +47,18 @@ class Picker:
         self._locators: dict[int, tuple[DisplayMesh, vtkStaticCellLocator]] = {}
         self._candidates = vtkIdList()
 
-    def pick(self, meshes: Mapping[str, "DisplayMesh"], origin: ArrayLike, direction: ArrayLike) -> Pick | None:
-        """The nearest hit at or after `origin` (3,) along `direction` (3,), from either side; None for a miss."""
+    def pick(
+        self,
+        meshes: Mapping[str, "DisplayMesh"],
+        origin: ArrayLike,
+        direction: ArrayLike,
+        near: float = 0.0,
+        far: float = np.inf,
+    ) -> Pick | None:
+        """The nearest hit along `direction` (3,) from `origin` (3,), from either side; None for a miss.
+
+        Looked at is what lies `near` to `far` millimetres away.
+        """
         start = np.asarray(origin, float)
         along = np.asarray(direction, float) / np.linalg.norm(direction)
         living = {id(mesh) for mesh in meshes.values()}
@@ -62,24 +74,39 @@ class Picker:
                 continue
             mesh = meshes[ids[index]]
             candidates = self._along(mesh, start + entry[index] * along, start + leave[index] * along)
-            triangle, distance = first_hit(mesh, candidates, start, along)
-            if distance < nearest:
+            triangle, distance = first_hit(mesh, candidates, start, along, near)
+            if distance < nearest and distance <= far:
                 best, nearest = (ids[index], mesh, triangle), distance
         if best is None:
             return None
-        solid_id, mesh, triangle = best
-        a, b, c = mesh.points[mesh.triangles[triangle]].astype(float)
-        normal = np.cross(b - a, c - a)
-        return Pick(
-            solid_id=solid_id,
-            triangle=triangle,
-            point=_three(start + nearest * along),
-            normal=_three(normal / max(float(np.linalg.norm(normal)), 1e-300)),
-            distance=float(nearest),
-            path=tuple(mesh.owners[int(mesh.owner[triangle])]),
-            facet=int(mesh.facet[triangle]),
-            subtracted=bool(mesh.subtracted[triangle]),
-        )
+        return _pick(*best, start, along, nearest)
+
+    def pick_all(
+        self,
+        meshes: Mapping[str, "DisplayMesh"],
+        origin: ArrayLike,
+        direction: ArrayLike,
+        near: float = 0.0,
+        far: float = np.inf,
+    ) -> list[Pick]:
+        """Every hit along `direction` (3,) from `origin` (3,) within `near` to `far` millimetres, nearest first."""
+        start = np.asarray(origin, float)
+        along = np.asarray(direction, float) / np.linalg.norm(direction)
+        found: list[tuple[float, str, DisplayMesh, int]] = []
+        for solid_id, mesh in meshes.items():
+            if not len(mesh.triangles):
+                continue
+            entry, leave = _through_boxes(np.reshape(mesh.bounds, (1, 2, 3)).astype(float), start, along)
+            if entry[0] > leave[0]:
+                continue
+            candidates = self._along(mesh, start + entry[0] * along, start + leave[0] * along)
+            distance = hit_distances(mesh, candidates, start, along)
+            found += [
+                (float(distance[i]), solid_id, mesh, int(candidates[i]))
+                for i in np.flatnonzero((distance >= near) & (distance <= far) & np.isfinite(distance))
+            ]
+        found.sort(key=lambda hit: hit[0])
+        return [_pick(solid_id, mesh, triangle, start, along, at) for at, solid_id, mesh, triangle in found]
 
     def _along(self, mesh: "DisplayMesh", start: Floats, end: Floats) -> NDArray[np.int64]:
         if len(mesh.triangles) <= FEW:
@@ -98,9 +125,22 @@ class Picker:
 
 
 def first_hit(
-    mesh: "DisplayMesh", candidates: NDArray[np.int64], origin: Floats, direction: Floats
+    mesh: "DisplayMesh", candidates: NDArray[np.int64], origin: Floats, direction: Floats, near: float = 0.0
 ) -> tuple[int, float]:
-    """The nearest of the `candidates` (indices of triangles) on the ray and its distance; (-1, inf) for a miss."""
+    """The nearest of the `candidates` (indices of triangles) on the ray, from `near` on, and its distance.
+
+    (-1, inf) for a miss.
+    """
+    distance = hit_distances(mesh, candidates, origin, direction)
+    distance[distance < near] = np.inf
+    if not np.isfinite(distance).any():
+        return -1, np.inf
+    nearest = int(np.argmin(distance))
+    return int(candidates[nearest]), float(distance[nearest])
+
+
+def hit_distances(mesh: "DisplayMesh", candidates: NDArray[np.int64], origin: Floats, direction: Floats) -> Floats:
+    """(k,) how far along the line each of the `candidates` (k,) is hit, negative behind the origin; inf for a miss."""
     a, b, c = (mesh.points[mesh.triangles[candidates, corner]].astype(float) for corner in range(3))
     first, second, offset = b - a, c - a, origin - a
     across = np.cross(direction, second)
@@ -112,12 +152,22 @@ def first_hit(
         v = turned @ direction / determinant
         distance = np.einsum("ij,ij->i", second, turned) / determinant
         hit = (np.abs(determinant) > 1e-12 * size) & (u >= -SLACK) & (v >= -SLACK) & (u + v <= 1.0 + SLACK)
-        hit &= distance >= 0.0
-    if not hit.any():
-        return -1, np.inf
-    distance = np.where(hit, distance, np.inf)
-    nearest = int(np.argmin(distance))
-    return int(candidates[nearest]), float(distance[nearest])
+    return np.where(hit, distance, np.inf)
+
+
+def _pick(solid_id: str, mesh: "DisplayMesh", triangle: int, start: Floats, along: Floats, distance: float) -> Pick:
+    a, b, c = mesh.points[mesh.triangles[triangle]].astype(float)
+    normal = np.cross(b - a, c - a)
+    return Pick(
+        solid_id=solid_id,
+        triangle=triangle,
+        point=_three(start + distance * along),
+        normal=_three(normal / max(float(np.linalg.norm(normal)), 1e-300)),
+        distance=float(distance),
+        path=tuple(mesh.owners[int(mesh.owner[triangle])]),
+        facet=int(mesh.facet[triangle]),
+        subtracted=bool(mesh.subtracted[triangle]),
+    )
 
 
 def _through_boxes(boxes: Floats, origin: Floats, direction: Floats) -> tuple[Floats, Floats]:

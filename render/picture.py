@@ -20,6 +20,7 @@ from .views import camera_of
 from .window import close, offscreen_window, pixels
 
 if TYPE_CHECKING:
+    from ..model.document.document import Section
     from ..model.solid.display import DisplayMesh
 
 SAMPLES = 8
@@ -38,13 +39,15 @@ def picture(
     perspective: float | None = 30.0,
     look: Look | str = "light",
     ground: bool = False,
+    sections: "Sequence[Section]" = (),
 ) -> NDArray[np.uint8]:
     """Solids as (mesh, colours) pairs, see `Scene.show`, in one picture (height, width, 3) of sRGB bytes.
 
     `view` is a camera, taken as it is, or the name of a view, fitted to the solids with the full vertical angle
     `perspective` in degrees, or in parallel projection for None. `background` is a colour, None for the look's
-    gradient, or "transparent", which gives a fourth channel with alpha (colours not multiplied by it). Raises
-    ValueError for a size, style, shading, opacity or view that does not exist, Refusal for such a colour.
+    gradient, or "transparent", which gives a fourth channel with alpha (colours not multiplied by it). The active
+    ones of `sections` open the solids. Raises ValueError for a size, style, shading, opacity or view that does not
+    exist, Refusal for such a colour.
     """
     clear = background == "transparent"
     fine = 2 if opacity < 1.0 else 1  # VTK peels no multi-sampled depths: then 2 by 2 pixels make one
@@ -59,6 +62,7 @@ def picture(
         scene.set_line_scale(fine)
         scene.set_background((0.0, 0.0, 0.0) if clear else background)
         renderer.SetBackgroundAlpha(0.0 if clear else 1.0)
+        scene.set_sections(sections)
         scene.show({str(number): solid for number, solid in enumerate(solids)})
         bounds = scene.visible_bounds()
         camera = _camera(view, bounds, size, perspective)

@@ -9,10 +9,12 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from .actors import Path, SolidActors
 from .look import LIGHT, SHADINGS, STYLES, Look, light_up, look_of, set_background
+from .sections import Sections
 
 if TYPE_CHECKING:
     from vtkmodules.vtkRenderingCore import vtkRenderer
 
+    from ..model.document.document import Section
     from ..model.solid.display import DisplayMesh
     from .camera import Camera
 
@@ -31,6 +33,7 @@ class Scene:
         self.hover: Path | None = None
         self._background: Any = None
         self._solids: dict[str, SolidActors] = {}
+        self.sections = Sections(renderer)
         light_up(renderer)
         self._restyle()
 
@@ -56,8 +59,16 @@ class Scene:
             self._solids[solid_id] = entry
             for actor in entry.actors:
                 self.renderer.AddActor(actor)
+            self.sections.clip(entry.actors)
             self._style(entry)
             self._paint(entry)
+        self.sections.set_solids({key: (entry.mesh, entry.colours) for key, entry in self._solids.items()})
+
+    def set_sections(self, sections: Iterable["Section"], dragged: bool = False) -> None:
+        """Open the picture by those of the sections that are active; `dragged` while they are on their way."""
+        if self.sections.set_planes(sections, dragged):
+            for entry in self._solids.values():
+                self.sections.clip(entry.actors)
 
     @property
     def meshes(self) -> dict[str, "DisplayMesh"]:
@@ -133,6 +144,12 @@ class Scene:
         if self.style in ("wireframe", "hidden-line"):
             for entry in self._solids.values():
                 entry.turn_silhouette(camera)
+        window = self.renderer.GetRenderWindow()
+        if window is not None:
+            pixel = 2.0 * camera.half_height / max(window.GetSize()[1], 1) * self.line_scale
+            self.sections.before_render(
+                self.style, self.look, self._ground, self.selection, self.hover, self._line_width, pixel
+            )
 
     def _remove(self, solid_id: str) -> None:
         for actor in self._solids.pop(solid_id).actors:
@@ -150,12 +167,19 @@ class Scene:
             self._style(entry)
             self._paint(entry)
 
+    @property
+    def _ground(self) -> Any:
+        return self.look.plain_background if self._background is None else self._background
+
+    @property
+    def _line_width(self) -> float:
+        return 1.25 * self.line_scale
+
     def _style(self, entry: SolidActors) -> None:
-        entry.set_style(self.style, self.shading, self.look, self.opacity, 1.25 * self.line_scale)
+        entry.set_style(self.style, self.shading, self.look, self.opacity, self._line_width)
 
     def _paint(self, entry: SolidActors) -> None:
-        ground = self.look.plain_background if self._background is None else self._background
-        entry.paint(self.style, self.look, self.selection, self.hover, ground)
+        entry.paint(self.style, self.look, self.selection, self.hover, self._ground)
 
     def _paint_all(self) -> None:
         for entry in self._solids.values():

@@ -9,6 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from . import camera as camera_value
 from .camera import Camera, fit, ray, with_projection
+from .ghosts.ghosts import Ghost, Ghosts
 from .ground import Ground
 from .handles.overlay import Overlay
 from .look import Look, look_of
@@ -20,6 +21,7 @@ from .views import standard_view
 from .window import close, is_software, native_window, offscreen_window, pixels, smooth
 
 if TYPE_CHECKING:
+    from ..model.document.document import Section
     from ..model.solid.display import DisplayMesh
 
 
@@ -40,6 +42,7 @@ class Viewer:
         self.window.AddRenderer(self.renderer)
         self.scene = Scene(self.renderer, look)
         self.ground = Ground(self.renderer, look)
+        self.ghosts = Ghosts(self.renderer, look)
         self.overlay = Overlay(self.window, look)
         self.cube = ViewCube(self.window, look, layer=2)
         self.camera = standard_view(Camera(), "iso")
@@ -49,6 +52,7 @@ class Viewer:
         self.changed_camera: Callable[[Camera], None] | None = None
         self._picker = Picker()
         self._software: bool | None = None
+        self._moving = False
         self._closed = False
 
     # The window
@@ -60,6 +64,7 @@ class Viewer:
         self.window.SetDPI(round(96 * scale))
         self.scene.set_line_scale(scale)
         self.ground.set_line_scale(scale)
+        self.ghosts.set_line_scale(scale)
         self.cube.resize(*self.size, scale)
         self.needs_render = True
 
@@ -69,7 +74,7 @@ class Viewer:
             return
         self.ground.update(self.camera)
         self.scene.before_render(self.camera)
-        bounds = union(self.scene.visible_bounds(), self.ground.bounds)
+        bounds = union(union(self.scene.visible_bounds(), self.ground.bounds), self.ghosts.bounds)
         camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
         self.overlay.before_render(self.camera, self.size, self.scale)
         self.cube.turn(self.camera)
@@ -88,6 +93,7 @@ class Viewer:
         if not self._closed:
             self._closed = True
             self.scene.show({})
+            self.ghosts.show(())
             close(self.window)
 
     # What is shown
@@ -95,6 +101,11 @@ class Viewer:
     def show(self, solids: Mapping[str, tuple["DisplayMesh", Any]]) -> None:
         """See `Scene.show`."""
         self.scene.show(solids)
+        self.needs_render = True
+
+    def show_ghosts(self, ghosts: Iterable[Ghost]) -> None:
+        """See `Ghosts.show`."""
+        self.ghosts.show(ghosts)
         self.needs_render = True
 
     def set_selection(self, paths: Iterable[tuple[str | int, ...]]) -> None:
@@ -110,11 +121,17 @@ class Viewer:
         self.needs_render = True
         return True
 
+    def set_sections(self, sections: "Iterable[Section]", dragged: bool = False) -> None:
+        """See `Scene.set_sections`."""
+        self.scene.set_sections(sections, dragged)
+        self.needs_render = True
+
     def set_theme(self, theme: Look | str) -> None:
         """ "light", "dark" or a look; ValueError for another name."""
         look = look_of(theme) if isinstance(theme, str) else theme
         self.scene.set_look(look)
         self.ground.set_look(look)
+        self.ghosts.set_look(look)
         self.overlay.set_look(look)
         self.cube.set_look(look)
         self.needs_render = True
@@ -179,8 +196,20 @@ class Viewer:
         return origin, direction
 
     def pick(self, x: float, y: float) -> Pick | None:
-        """The triangle under pixel (x, y), None for the background. Does not look at the view cube."""
-        return self._picker.pick(self.scene.meshes, *self.ray(x, y))
+        """The triangle or cut face under pixel (x, y), None for the background. Does not look at the view cube."""
+        origin, direction = self.ray(x, y)
+        sections = self.scene.sections
+        found = self._picker.pick(self.scene.meshes, origin, direction, *sections.span(origin, direction))
+        cut = sections.pick(origin, direction)
+        return cut if found is None or (cut is not None and cut.distance < found.distance) else found
+
+    def pick_all(self, x: float, y: float) -> list[Pick]:
+        """All that lies under pixel (x, y), front to back, faces turned away from the eye included."""
+        origin, direction = self.ray(x, y)
+        sections = self.scene.sections
+        found = self._picker.pick_all(self.scene.meshes, origin, direction, *sections.span(origin, direction))
+        cut = sections.pick(origin, direction)
+        return found if cut is None else [cut, *found]
 
     def cube_hit(self, x: float, y: float) -> str | None:
         """The view cube's region under pixel (x, y) as a name for `views.standard_view`; None beside the cube."""
@@ -192,8 +221,16 @@ class Viewer:
         self.needs_render = self.needs_render or changed
         return changed
 
+    def set_moving(self, moving: bool) -> None:
+        """While something is dragged, pictures drawn by the processor are not smoothed, which is half of their time."""
+        if moving != self._moving:
+            self._moving = moving
+            self._smooth()
+            self.needs_render = self.needs_render or not moving
+
     def _smooth(self) -> None:
         """Four samples a pixel on a graphics card, FXAA on the processor and where depths are peeled."""
         if self._software is not None:
             samples = 0 if self._software or self.scene.opacity < 1.0 else 4
-            smooth(self.window, [self.renderer, self.overlay.renderer, self.cube.renderer], samples)
+            renderers = [self.renderer, self.overlay.renderer, self.cube.renderer]
+            smooth(self.window, renderers, samples, samples == 0 and not (self._moving and self._software))

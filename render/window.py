@@ -63,11 +63,11 @@ def is_software(window: vtkRenderWindow) -> bool:
     return any(name in capabilities for name in ("llvmpipe", "softpipe", "swrast", "swiftshader", "basic render"))
 
 
-def smooth(window: vtkRenderWindow, renderers: "list[vtkRenderer]", samples: int) -> None:
-    """Anti-alias: by `samples` a pixel, or where that is 0 by FXAA, which software renderers do three times faster."""
+def smooth(window: vtkRenderWindow, renderers: "list[vtkRenderer]", samples: int, fxaa: bool) -> None:
+    """Anti-alias by `samples` a pixel, or by FXAA, which software renderers do three times faster."""
     window.SetMultiSamples(samples)
     for renderer in renderers:
-        renderer.SetUseFXAA(samples == 0)
+        renderer.SetUseFXAA(fxaa)
 
 
 def pixels(window: vtkRenderWindow) -> NDArray[np.uint8]:

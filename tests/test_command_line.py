@@ -10,7 +10,16 @@ import numpy as np
 import pytest
 
 from solidtree.gui.command_line import main
-from solidtree.model.script import box, cylinder, halfspace, open_document, parameter, save, sphere
+from solidtree.model.script import (
+    box,
+    cylinder,
+    halfspace,
+    linear_array,
+    open_document,
+    parameter,
+    save,
+    sphere,
+)
 
 
 @pytest.fixture
@@ -76,12 +85,35 @@ def test_info_has_every_key_that_programs_rely_on(solidtree, tmp_path):
     status, out, _ = solidtree("info", tmp_path / "two.solidtree")
     answer = json.loads(out)
     assert status == 0 and set(answer) == {"solids", "total", "profiles", "warnings"}
-    keys = {"volume", "area", "bounds", "centroid", "triangles", "components", "genus", "closed"}
+    keys = {"volume", "area", "bounds", "centroid", "triangles", "components", "genus", "closed", "inertia"}
+    keys |= {"principal_moments"}
     assert [set(solid) for solid in answer["solids"]] == [keys | {"name"}] * 3 and set(answer["total"]) == keys
     assert answer["total"]["volume"] == pytest.approx(8 + 27 - 4) and answer["total"]["bounds"] == [
         [0, 0, 0],
         [4, 3, 3],
     ]
+
+
+def test_info_measures_every_node_where_it_stands(solidtree, tmp_path):
+    holes = linear_array(cylinder(1, 9, segments=4).named("hole").at(2, 2, -1), 2, (5, 0, 0)).named("holes")
+    save(tmp_path / "plate.solidtree", plate=(box(10, 4, 3) - holes).at(100), endless=halfspace())
+    status, out, _ = solidtree("info", tmp_path / "plate.solidtree", "--nodes")
+    answer = json.loads(out)
+    assert status == 1
+    rows = {row["name"]: row for row in answer["nodes"]}
+    assert list(rows) == ["plate", "Box", "holes", "hole", "endless"]
+    assert rows["hole"]["path"] == ["plate", "holes", 0, "hole"] and rows["hole"]["volume"] == pytest.approx(18)
+    assert rows["hole"]["centroid"] == pytest.approx([102, 2, 3.5])
+    assert rows["holes"]["volume"] == pytest.approx(36) and rows["Box"]["bounds"] == [[100, 0, 0], [110, 4, 3]]
+    assert rows["plate"]["volume"] == pytest.approx(120 - 12) and rows["endless"]["volume"] is None
+
+
+def test_info_estimates_the_least_wall(solidtree, tmp_path):
+    save(tmp_path / "tray.solidtree", tray=box(20) - box(16, 16, 20).at(2, 2, 1.5), endless=halfspace())
+    answer = json.loads(solidtree("info", tmp_path / "tray.solidtree", "--walls")[1])
+    tray, endless = answer["solids"]
+    assert tray["thinnest_wall"]["length"] == pytest.approx(1.5, abs=1e-9) and tray["thinnest_wall"]["rays"] == 2000
+    assert endless["thinnest_wall"] is None
 
 
 def test_info_tells_what_failed_and_what_is_empty(solidtree, tmp_path):
@@ -220,6 +252,23 @@ def test_render_shows_what_is_there(solidtree, tmp_path):
     assert numbers.shape == (100, 260) and set(np.unique(numbers)) == {0, 1, 2}
     first, second = (numbers == 1).sum(), (numbers == 2).sum()
     assert first / second == pytest.approx(10 / 4, rel=0.05)
+
+
+def test_render_colours_by_node(solidtree, tmp_path):
+    from PySide6.QtGui import QColor, QImage
+
+    save(tmp_path / "two.solidtree", a=box(10).coloured("red") + box(10).at(12).coloured("red"))
+    hues = {}
+    for colours in ("own", "nodes"):
+        out = tmp_path / f"{colours}.png"
+        arguments = ("--size", "220x100", "--view", "top", "--parallel", "--colours", colours)
+        assert solidtree("render", tmp_path / "two.solidtree", out, *arguments) == (0, "", "")
+        hues[colours] = [QImage(str(out)).pixelColor(x, 50).hue() for x in (60, 160)]
+    assert hues["own"] == [0, 0]
+    # The union is n1, its operands n2 and n3.
+    from solidtree.model.document.distinct_colours import distinct_colour
+
+    assert hues["nodes"] == pytest.approx([QColor(distinct_colour(i)).hue() for i in ("n2", "n3")], abs=4)
 
 
 def test_render_of_nothing_is_not_in_order(solidtree, tmp_path):

@@ -11,7 +11,7 @@ from solidtree.model.document.primitives import Box, Extrude, Revolve
 from solidtree.model.document.resolve import resolve
 from solidtree.model.document.table import from_table, to_table
 from solidtree.model.document.tree import find, trail, walk
-from solidtree.model.editing.operations import OPERATIONS
+from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.script import (
     at,
     box,

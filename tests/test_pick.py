@@ -79,6 +79,20 @@ def test_rays_along_shared_sides_do_not_slip_through():
         assert np.allclose(pick.point, goal, atol=1e-5)
 
 
+def test_all_that_a_ray_meets_front_to_back():
+    meshes = {"part": drilled(48), "box": box((-3, 40, -3), (3, 46, 3)), "beside": box((50, 0, 0), (60, 9, 9))}
+    origin, direction = np.array([0.1, -60.0, 0.2]), np.array([0.0, 2.0, 0.0])
+    found = Picker().pick_all(meshes, origin, direction)
+    # The cube's side, the hole's wall twice, the other side, then the box.
+    assert [(pick.solid_id, pick.path[-1]) for pick in found] == [
+        ("part", "cube"), ("part", "drill"), ("part", "drill"), ("part", "cube"), ("box", "b"), ("box", "b"),
+    ]  # fmt: skip
+    assert [pick.distance for pick in found] == pytest.approx([50, 54, 66, 70, 100, 106], abs=0.05)
+    assert found[0] == Picker().pick(meshes, origin, direction)
+    assert Picker().pick_all(meshes, origin, direction, 52.0, 68.0) == found[1:3]
+    assert Picker().pick_all(meshes, origin, -direction) == []
+
+
 def test_misses_and_empty_meshes():
     picker = Picker()
     mesh = box()

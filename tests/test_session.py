@@ -9,8 +9,8 @@ from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.table import from_table, same_document, to_table
 from solidtree.model.document.tree import find, walk
-from solidtree.model.editing.operations import OPERATIONS
 from solidtree.model.editing.session import Session
+from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
 
 DOCUMENT = document_of(union(box(1), sphere(2)), box(3))  # n1 (n2, n3), n4

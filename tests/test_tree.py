@@ -7,10 +7,12 @@ import pytest
 from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.nodes import Union
+from solidtree.model.document.primitives import Box
 from solidtree.model.document.tree import (
     change,
     change_each,
     find,
+    homes,
     index_of,
     insert,
     next_number,
@@ -157,3 +159,10 @@ def test_deep_trees_are_found_and_changed():
     assert find(after, lowest).placement.position == (1, 0, 0) and find(also, lowest).name == "x"
     assert outermost(document, [lowest, "n3"]) == ["n3"] and index_of(document, lowest) == 1
     assert find(insert(document, box(1).with_(id="new"), trail(document, lowest)[-2].id), "new")
+
+
+def test_the_homes_of_nodes_come_in_the_order_asked_for():
+    one, other = Union(id="one", children=(Box(id="a"), Box(id="b"))), Box(id="other")
+    document = Document(solids=(one, other))
+    assert homes(document, ["other", "b", "gone", "a"]) == {"other": other, "one": one}
+    assert list(homes(document, ["other", "b"])) == ["other", "one"] and homes(document, []) == {}

@@ -5,9 +5,9 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLineEdit, QMessageBox, QToolButton
 
+from solidtree.gui.commands.menus import example_names, open_example
 from solidtree.gui.dialogs import ExportDialog
-from solidtree.gui.menus import example_names, open_example
-from solidtree.gui.palette import score
+from solidtree.gui.panels.measures import MeasuresView
 from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Difference, Intersection, Union
 from solidtree.model.document.primitives import Box, Cylinder, Halfspace, Sphere
@@ -187,7 +187,6 @@ def test_the_palette_finds_and_runs(driver):
     assert palette.isVisible() and kinds(driver.document) == ["Torus"]
     driver.keys("Escape", palette.field)
     assert not palette.isVisible()
-    assert score("hs", "Half-space") > score("hs", "Those shapes") and score("xq", "Box") is None
 
 
 def test_styles_and_projection_are_switches(driver):
@@ -226,34 +225,6 @@ def test_problems_are_listed_and_select_their_node(driver):
     driver.keys("Delete", driver.window.tree)
     driver.settle()
     driver.qtbot.waitUntil(lambda: driver.window.docks["Problems"].windowTitle() == "Problems")
-
-
-def test_parameters_by_table_and_slider(driver):
-    driver.open(Document(solids=(Sphere(id="s", name="ball", radius="r"),), parameters=()))
-    driver.session.do("set_parameter", "r", 10.0, minimum=5, maximum=20)
-    panel = driver.window.parameters
-    slider = panel.table.cellWidget(0, 2)
-    before = driver.document
-    slider.setSliderDown(True)
-    slider.setValue(slider.maximum())
-    assert driver.session.previewing and driver.document.parameter("r").value == 20
-    slider.setSliderDown(False)
-    slider.sliderReleased.emit()
-    assert not driver.session.previewing and driver.session.undo_label == "Change r"
-    driver.session.undo()
-    assert driver.document is before
-    said = []
-    panel.refused.connect(said.append)
-    panel.table.item(0, 1).setText("99")
-    assert driver.document is before and "at most 20" in said[0] and panel.table.item(0, 1).text() == "10"
-    driver.qtbot.mouseClick(panel.add, Qt.MouseButton.LeftButton)
-    assert [p.name for p in driver.document.parameters] == ["r", "size"]
-    panel.table.item(1, 0).setText("length")
-    assert [p.name for p in driver.document.parameters] == ["r", "length"]
-    panel.table.item(0, 0).setText("length")
-    assert "already" in said[-1] and driver.document.parameters[0].name == "r"
-    panel.table.item(0, 0).setText("q")
-    assert driver.document.parameters[0].name == "q" and driver.document.solids[0].radius.text == "q"
 
 
 def test_save_open_and_the_title(driver, tmp_path):
@@ -349,9 +320,9 @@ def test_every_example_opens_without_problems(driver):
 def test_measures_are_copied(driver):
     driver.keys("Shift+B")
     driver.settle()
-    button = driver.window.properties._view.copy_button
-    driver.qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
-    assert "Volume\t8\u202f000 mm³" in QGuiApplication.clipboard().text()
+    view = driver.child(MeasuresView, "measures_of_solid")
+    driver.qtbot.mouseClick(view.copy_button, Qt.MouseButton.LeftButton)
+    assert "Volume\t8000\tmm³" in QGuiApplication.clipboard().text()
 
 
 def test_the_layout_is_kept(make_window):
@@ -424,7 +395,7 @@ def test_a_long_evaluation_is_told_and_cancelled(driver):
 
 
 def test_previewed_colours_are_painted_and_not_evaluated(driver):
-    from solidtree.model.editing.operations import OPERATIONS
+    from solidtree.model.operations.operations import OPERATIONS
 
     driver.keys("Shift+B")
     driver.settle()

@@ -1,18 +1,20 @@
 """The model tree and the picture: selection in step, inline rename, eyes, drag and drop, deep trees, picking."""
 
 import pytest
-from PySide6.QtCore import QAbstractItemModel, QModelIndex, QPoint, Qt
+from PySide6.QtCore import QAbstractItemModel, QPoint, QPointF, Qt
+from PySide6.QtGui import QDragEnterEvent, QDragLeaveEvent, QDragMoveEvent, QDropEvent
 from PySide6.QtTest import QAbstractItemModelTester
-from PySide6.QtWidgets import QLineEdit
+from PySide6.QtWidgets import QApplication, QLineEdit, QPushButton
 
+from solidtree.gui.tree.drops import dragged
 from solidtree.gui.tree.tree_model import EYE, TreeModel
 from solidtree.gui.tree.tree_rows import longest_rising, runs
 from solidtree.model.document.document import Document
 from solidtree.model.document.nodes import Difference, Node, Union
 from solidtree.model.document.primitives import Box, Cylinder, Sphere
 from solidtree.model.document.tree import find, trail, walk
-from solidtree.model.editing.operations import combine, delete, duplicate, relocate, rename
 from solidtree.model.editing.session import Session
+from solidtree.model.operations.operations import combine, delete, duplicate, relocate, rename
 
 pytest_plugins = ["window_driver"]
 CTRL = Qt.KeyboardModifier.ControlModifier
@@ -124,28 +126,167 @@ def test_badges_follow_the_problems(driver):
     assert "without end" in nodes.data(badge, Qt.ItemDataRole.ToolTipRole)
 
 
-def test_drops_relocate_copy_and_refuse_before_the_mouse_is_released(driver):
+class Drag:
+    """Nodes of the tree on their way over a widget, as the events of a drag; real ones need a window manager."""
+
+    def __init__(self, driver, *ids: str) -> None:
+        self.driver, self.data = driver, dragged(driver.session, ids)
+
+    def over(self, point: QPoint, modifiers=Qt.KeyboardModifier.NoModifier, widget=None):
+        """What the cursor says: MoveAction, CopyAction, or IgnoreAction for a forbidden place."""
+        widget = widget or self.driver.window.tree.viewport()
+        for kind in (QDragEnterEvent, QDragMoveEvent):
+            event = kind(point, MOVE | COPY, self.data, Qt.MouseButton.LeftButton, modifiers)
+            QApplication.sendEvent(widget, event)
+        return event.dropAction() if event.isAccepted() else Qt.DropAction.IgnoreAction
+
+    def drop(self, point: QPoint, modifiers=Qt.KeyboardModifier.NoModifier, widget=None) -> None:
+        self.over(point, modifiers, widget)
+        event = QDropEvent(QPointF(point), MOVE | COPY, self.data, Qt.MouseButton.LeftButton, modifiers)
+        QApplication.sendEvent(widget or self.driver.window.tree.viewport(), event)
+
+    def leave(self) -> None:
+        QApplication.sendEvent(self.driver.window.tree.viewport(), QDragLeaveEvent())
+
+
+def edge_of(driver, node_id: str, below: bool = False) -> QPoint:
+    rect = driver.window.tree.visualRect(driver.window.tree.nodes.index_of(node_id))
+    return QPoint(rect.left() + 30, rect.bottom() - 1 if below else rect.top() + 1)
+
+
+def test_nodes_are_dropped_between_onto_out_of_and_beside_operations(driver):
     loose = Sphere(id="loose", name="loose")
     driver.open(Document(solids=(*drilled().solids, loose)))
-    nodes, said = driver.window.tree.nodes, []
-    driver.window.tree.refused.connect(said.append)
-
-    def dragged(*ids: str):
-        return nodes.mimeData([nodes.index_of(i) for i in ids])
-
-    part = nodes.index_of("part")
-    assert not nodes.canDropMimeData(dragged("part"), MOVE, -1, 0, part) and "into itself" in said[-1]
-    assert not nodes.canDropMimeData(dragged("loose"), MOVE, -1, 0, nodes.index_of("cube"))
     before = driver.document
-    assert nodes.canDropMimeData(dragged("loose"), MOVE, 1, 0, part) and driver.document is before
-    assert nodes.dropMimeData(dragged("loose"), MOVE, 1, 0, part)
+    Drag(driver, "loose").drop(edge_of(driver, "hole"))
     assert [child.id for child in driver.document.solids[0].children] == ["cube", "loose", "hole"]
-    assert find(driver.document, "cube") is find(before, "cube")
-    assert nodes.dropMimeData(dragged("hole"), COPY, -1, 0, QModelIndex())
-    assert [root.kind for root in driver.document.solids] == ["Difference", "Cylinder"]
-    driver.session.undo()
-    driver.session.undo()
+    assert find(driver.document, "cube") is find(before, "cube") and driver.session.selection == ("loose",)
+    Drag(driver, "cube", "loose").drop(driver.row(find(driver.document, "part")))
+    assert [child.id for child in driver.document.solids[0].children] == ["hole", "cube", "loose"]
+    viewport = driver.window.tree.viewport()
+    Drag(driver, "loose", "hole").drop(QPoint(60, viewport.height() - 10), CTRL)
+    assert [root.kind for root in driver.document.solids] == ["Difference", "Sphere", "Cylinder"]
+    assert len(driver.session.log) == 3 and driver.session.log[-1] == "copy_to(['loose', 'hole'], None)"
+    last = driver.window.tree.visualRect(driver.window.tree.nodes.index_of("loose"))
+    Drag(driver, "hole").drop(QPoint(4, last.bottom() - 1))  # below the last operand, pointing further out
+    assert [root.id for root in driver.document.solids][:2] == ["part", "hole"]
+    for _ in range(4):
+        driver.session.undo()
     assert driver.document is before
+
+
+def test_an_impossible_drop_is_refused_before_the_release_and_says_why(driver):
+    driver.open(Document(solids=(*drilled().solids, Sphere(id="loose", name="loose"))))
+    before, status = driver.document, driver.window.status
+    tree, loose = driver.window.tree, Drag(driver, "loose")
+    assert loose.over(driver.row(find(before, "part"))) == MOVE
+    assert loose.over(driver.row(find(before, "part")), CTRL) == COPY
+    assert loose.over(driver.row(find(before, "cube"))) == Qt.DropAction.IgnoreAction
+    assert "“cube” is a box, which takes no operands" in status.currentMessage() and tree._mark is None
+    loose.drop(driver.row(find(before, "cube")))
+    assert driver.document is before
+    part = Drag(driver, "part")
+    assert part.over(edge_of(driver, "hole")) == Qt.DropAction.IgnoreAction
+    assert "into itself" in status.currentMessage()
+    part.leave()
+    assert status.currentMessage() == ""
+
+
+def test_nodes_dragged_in_another_window_are_pasted(driver, make_window):
+    driver.open(drilled())
+    other = make_window(Document(solids=(Union(id="n1", name="pair", children=(Box(id="n2"),)),)))
+    foreign = Drag(driver, "hole")
+    foreign.driver = other
+    foreign.drop(other.row(other.document.solids[0]))
+    assert [child.kind for child in other.document.solids[0].children] == ["Box", "Cylinder"]
+    assert find(other.document, "n3").placement == find(driver.document, "hole").placement
+
+
+def test_cut_copy_and_paste_by_keys(driver):
+    driver.open(drilled())
+    driver.window.tree.setFocus()
+    driver.session.select(["hole"])
+    driver.keys("Ctrl+C", driver.window.tree)
+    driver.session.select(["part"])
+    driver.keys("Ctrl+V", driver.window.tree)
+    _, hole, copy = driver.document.solids[0].children
+    assert copy == hole and copy.name == "hole" and driver.session.selection == (copy.id,)
+    driver.keys("Ctrl+X", driver.window.tree)
+    assert len(driver.document.solids[0].children) == 2 and driver.session.undo_label == "Cut"
+    driver.session.select([])
+    driver.keys("Ctrl+V", driver.window.tree)
+    assert [root.kind for root in driver.document.solids] == ["Difference", "Cylinder"]
+    QApplication.clipboard().setText("not a node")
+    driver.keys("Ctrl+V", driver.window.tree)
+    assert "no nodes on the clipboard" in driver.window.status.currentMessage()
+
+
+def test_keys_move_operands_and_rename_many(driver):
+    driver.open(drilled())
+    tree = driver.window.tree
+    tree.setFocus()
+    driver.session.select(["hole"])
+    driver.keys("Alt+Up", tree)
+    assert [child.id for child in driver.document.solids[0].children] == ["hole", "cube"]
+    driver.keys("Ctrl+Up", tree)
+    assert driver.session.selection == ("part",)
+    driver.keys("Ctrl+Down", tree)
+    assert driver.session.selection == ("hole", "cube")
+    driver.keys("Return", tree)
+    editor = tree.viewport().findChild(QLineEdit)
+    driver.keys("Ctrl+A", editor)
+    driver.write("no", editor)
+    driver.keys("Return", editor)
+    driver.qtbot.waitUntil(lambda: [child.name for child in driver.document.solids[0].children] == ["no 1", "no 2"])
+    assert driver.session.undo_label == "Rename 2 nodes"
+
+
+def test_the_search_keeps_matches_and_what_they_stand_in(driver):
+    other = Union(id="other", name="other", children=(Box(id="c", name="crate"),))
+    driver.open(Document(solids=(*drilled().solids, other)))
+    tree, panel = driver.window.tree, driver.window.model_panel
+    tree.collapse(tree.nodes.index_of("part"))
+    driver.keys("Ctrl+F")
+    driver.write("kind:box", panel.field)
+    driver.qtbot.waitUntil(lambda: tree.filter.active)
+
+    def hidden(node_id: str) -> bool:
+        index = tree.nodes.index_of(node_id)
+        return tree.isRowHidden(index.row(), index.parent())
+
+    assert [hidden(i) for i in ("part", "cube", "hole", "other", "c")] == [False, False, True, False, False]
+    assert tree.isExpanded(tree.nodes.index_of("part")) and panel.count.text() == "2"
+    assert tree.nodes.index_of("cube").data(Qt.ItemDataRole.FontRole).bold()
+    driver.keys("Return", panel.field)
+    assert driver.session.selection == ("cube",) and panel.count.text() == "1 of 2"
+    driver.keys("Return", panel.field)
+    driver.keys("Return", panel.field)
+    assert driver.session.selection == ("cube",)
+    driver.keys("Ctrl+Return", panel.field)
+    assert driver.session.selection == ("cube", "c")
+    driver.session.do("rename", "hole", "kind:box hole")
+    driver.session.do("insert", Box(name="new"), "part")
+    assert panel.count.text() == "2 of 3"  # the new one is selected
+    driver.session.select([])
+    driver.keys("Escape", panel.field)
+    assert panel.field.text() == "" and not hidden("hole") and not tree.filter.matches
+    assert not tree.isExpanded(tree.nodes.index_of("part"))  # as it was
+
+
+def test_isolated_nodes_are_all_that_is_seen(driver):
+    driver.open(drilled())
+    driver.session.select(["hole"])
+    driver.keys("I", driver.window.viewport)
+    driver.settle()
+    scene, card = driver.window.viewport.viewer.scene, driver.window.isolation
+    assert set(scene.meshes) == {"hole"} and card.isVisible() and "hole" in card.words.text()
+    assert driver.document.solids == drilled().solids and not driver.session.modified
+    driver.session.do("set_field", "hole", "radius", 3)
+    driver.settle()
+    assert set(scene.meshes) == {"hole"}
+    driver.qtbot.mouseClick(card.findChild(QPushButton), Qt.MouseButton.LeftButton)
+    driver.settle()
+    assert set(scene.meshes) == {"part"} and not card.isVisible()
 
 
 def test_unchanged_rows_stay_expanded_and_collapsed(driver):

@@ -7,8 +7,8 @@ from PySide6.QtGui import QColor, QIcon, QPixmap
 from PySide6.QtWidgets import QColorDialog, QHBoxLayout, QToolButton, QWidget
 
 from ...model.document.errors import Refusal
-from ...model.editing.operations import OPERATIONS
 from ...model.editing.session import Session
+from ...model.operations.operations import OPERATIONS
 from ..icons import icon
 from .text_line import TextLine
 

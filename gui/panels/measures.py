@@ -1,79 +1,86 @@
-"""The measures of a solid as lines that can be copied."""
+"""The measures of a node or a solid as lines of figures."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QGridLayout, QLabel, QToolButton, QWidget
 
+from ...model.measuring.figure import Figure
 from ..icons import icon
-from ..status import figure
+from .figures import FigureLabel, FigureUse
 from .property_fields import LABEL_WIDTH
 
 if TYPE_CHECKING:
-    from ...model.solid.measure import Measures
+    from ...model.measuring.measure import Measures
+
+DASH = "\u2013"
+FINE = {"Volume": 9, "Area": 9, "Triangles": 12}
+"""Digits shown where they are more than the usual ones."""
+TIPS = {
+    "Inertia": "Moments of inertia about the centroid, along the world's axes, for a density of 1",
+    "Products": "The tensor's elements beside the diagonal: xy, xz, yz",
+    "Principal": "Moments of inertia about the principal axes through the centroid, least first",
+    "Genus": "Holes that go through",
+    "Size": "Of the box around it",
+    "From": "The lowest corner of the box around it",
+    "To": "The highest corner of the box around it",
+}
+NAMES = ("Volume", "Area", "Size", "From", "To", "Centroid", "Inertia", "Products", "Principal", "Triangles", "Genus")
 
 
 class MeasuresView(QWidget):
-    """A table of words; a dash where there is no value."""
+    """A row for each figure; a dash where there is no value."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
+    def __init__(self, use: FigureUse, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setObjectName("measures_of_solid")
+        self._use = use
+        self._figures: tuple[Figure, ...] = ()
         self.copy_button = QToolButton()
         self.copy_button.setProperty("flat", True)
         self.copy_button.setIcon(icon("copy"))
-        self.copy_button.setToolTip("Copy the measures")
-        self.copy_button.clicked.connect(self._copy)
-        self._grid = QGridLayout(self)
-        self._grid.setContentsMargins(0, 0, 0, 0)
-        self._grid.setHorizontalSpacing(8)
-        self._grid.setVerticalSpacing(4)
-        self._grid.setColumnMinimumWidth(0, LABEL_WIDTH)
-        self._grid.setColumnStretch(1, 1)
-        self._values: dict[str, QLabel] = {}
-        for row, name in enumerate(("Volume", "Area", "Size", "From", "To", "Centroid", "Triangles", "Genus")):
+        self.copy_button.setToolTip("Copy all")
+        self.copy_button.clicked.connect(lambda: use.copy(self.text()))
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, 0, 0, 0)
+        grid.setHorizontalSpacing(8)
+        grid.setVerticalSpacing(4)
+        grid.setColumnMinimumWidth(0, LABEL_WIDTH)
+        grid.setColumnStretch(1, 1)
+        self._rows: dict[str, FigureLabel] = {}
+        for row, name in enumerate(NAMES):
             label = QLabel(name, self)
             label.setProperty("muted", True)
-            value = QLabel("\u2013", self)
-            value.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            value.setWordWrap(True)
-            right = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop
-            self._grid.addWidget(label, row, 0, right)
-            self._grid.addWidget(value, row, 1)
-            self._values[name] = value
+            label.setToolTip(TIPS.get(name, ""))
+            value = FigureLabel(use, parent=self)
+            value.setAccessibleName(name)
+            grid.addWidget(label, row, 0, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignTop)
+            grid.addWidget(value, row, 1)
+            self._rows[name] = value
+        self.set_measures(None)
+
+    def row(self, name: str) -> FigureLabel:
+        return self._rows[name]
 
     def text(self) -> str:
-        return "\n".join(f"{name}\t{value.text()}" for name, value in self._values.items())
+        """A line for each figure, with all digits."""
+        return "\n".join(figure.line() for figure in self._figures)
 
-    def set_measures(self, measures: Measures | None) -> None:
-        words = {} if measures is None else words_of(measures)
-        for name, label in self._values.items():
-            label.setText(words.get(name, "\u2013"))
-        self.copy_button.setEnabled(bool(words))
+    def set_measures(self, measures: Measures | None, subject: str = "") -> None:
+        """`subject` names what was measured, for parameters."""
+        if measures is not None:
+            from ...model.measuring.mass_figures import mass_figures
 
-    def _copy(self) -> None:
-        QGuiApplication.clipboard().setText(self.text())
-
-
-def words_of(measures: Measures) -> dict[str, str]:
-    words = {
-        "Volume": f"{figure(measures.volume, 9)} mm³"
-        if measures.volume is not None
-        else "\u2013 (the surface is not closed)",
-        "Area": f"{figure(measures.area, 9)} mm²",
-        "Triangles": figure(measures.triangles, 12),
-        "Genus": str(measures.genus)
-        if measures.components == 1
-        else f"{measures.genus} in {measures.components} surfaces",
-    }
-    if measures.bounds is not None:
-        low, high = measures.bounds
-        words["Size"] = " × ".join(figure(b - a) for a, b in zip(low, high, strict=True)) + " mm"
-        words["From"] = ", ".join(figure(a) for a in low)
-        words["To"] = ", ".join(figure(b) for b in high)
-    if measures.centroid is not None:
-        words["Centroid"] = ", ".join(figure(x) for x in measures.centroid)
-    return words
+            self._figures = mass_figures(measures)
+        else:
+            self._figures = ()
+        known = {figure.name: figure for figure in self._figures}
+        for name, row in self._rows.items():
+            row.subject, row.every = subject, self._figures
+            if name in known:
+                row.set_figures((known[name],), FINE.get(name, 6))
+            else:
+                open_ = name == "Volume" and measures is not None
+                row.set_words(f"{DASH} (the surface is not closed)" if open_ else DASH)
+        self.copy_button.setEnabled(bool(known))

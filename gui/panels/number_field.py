@@ -95,6 +95,12 @@ class NumberField(TextLine):
         self.set_fault(False)
         self.reverted.emit()
 
+    def put(self, text: str) -> None:
+        """Write a value over all that is there, or at the cursor into what is being typed."""
+        if not self.isModified():
+            self.selectAll()
+        self.insert(text)
+
     def step(self, count: float, size: float) -> None:
         if isinstance(self._value, float):
             new = self.steps.moved(self._value, count * size)

@@ -1,8 +1,8 @@
-"""The properties of what is selected: the form of a node, or what several share, and the measures of their solid."""
+"""The properties of what is selected: the form of a node, or what several share, and their measures."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QWidget
@@ -11,11 +11,10 @@ from ...model.document.document import parameter_values
 from ...model.document.errors import Refusal
 from ...model.document.tree import find
 from ...model.editing.session import Session, State
+from .figures import FigureUse
+from .measured import SOLID, Measured
 from .measures import MeasuresView
 from .node_form import NodeForm, extra_steps
-
-if TYPE_CHECKING:
-    from ...model.solid.measure import Measures
 
 
 class Properties(QScrollArea):
@@ -23,7 +22,7 @@ class Properties(QScrollArea):
 
     refused = Signal(str)
 
-    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+    def __init__(self, session: Session, use: FigureUse, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("properties")
         self.setWidgetResizable(True)
@@ -31,8 +30,9 @@ class Properties(QScrollArea):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self._session = session
         self._form: NodeForm | None = None
-        self._view: MeasuresView | None = None
-        self._measured: Measures | None = None
+        self._use = use
+        self._views: dict[str, MeasuresView] = {}
+        self._measured: Measured = {}
         self._shape: Any = None
         self._build()
 
@@ -42,11 +42,14 @@ class Properties(QScrollArea):
         elif before.document is not after.document:
             self._refresh()
 
-    def set_measures(self, measures: Measures | None) -> None:
-        """Those of the selected solid, None where there are none."""
-        self._measured = measures
-        if self._view is not None:
-            self._view.set_measures(measures)
+    def set_measures(self, measured: Measured) -> None:
+        """Those of the selection. Other headings make a new form."""
+        headings = list(self._measured)
+        self._measured = measured
+        if list(measured) != headings:
+            self._build()
+        for heading, view in self._views.items():
+            view.set_measures(*measured[heading])
 
     def rebuild(self) -> None:
         """Draw the pictures anew, as in another theme."""
@@ -70,7 +73,7 @@ class Properties(QScrollArea):
 
     def _build(self) -> None:
         self._shape = self._shape_of(self._session.state)
-        self._view = None
+        self._views = {}
         old = self.takeWidget()
         if isinstance(old, NodeForm):
             old.retire()
@@ -85,10 +88,12 @@ class Properties(QScrollArea):
             form.heading(f"{len(selection)} nodes")
             form.build_look(list(selection))
         if self._shape:
-            self._view = MeasuresView(form)
-            self._view.set_measures(self._measured)
-            form.heading("Measures of the solid", self._view.copy_button)
-            form.column.addWidget(self._view)
+            for heading, (measures, subject) in self._measured.items():
+                view = self._views[heading] = MeasuresView(self._use, form)
+                view.setObjectName("measures_of_solid" if heading == SOLID else "measures_of_node")
+                view.set_measures(measures, subject)
+                form.heading(heading, view.copy_button)
+                form.column.addWidget(view)
         form.column.addStretch(1)
         self._form = form
         self.setWidget(form)

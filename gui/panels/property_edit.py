@@ -12,8 +12,8 @@ from ...model.document.fields import FieldSpec
 from ...model.document.nodes import Node, field_specs
 from ...model.document.placement import Move, Placement, Scale, Step
 from ...model.document.tree import find
-from ...model.editing.operations import OPERATIONS
 from ...model.editing.session import Session
+from ...model.operations.operations import OPERATIONS
 
 
 class Edit:

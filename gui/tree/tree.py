@@ -1,70 +1,42 @@
-"""The model tree: selection in step with the session, inline rename, eyes, badges, drag and drop, keyboard."""
+"""The model tree: selection in step with the session, inline rename, eyes, badges, keyboard, search."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import (
-    QEvent,
-    QItemSelection,
-    QItemSelectionModel,
-    QModelIndex,
-    QPersistentModelIndex,
-    QRect,
-    QSize,
-    Qt,
-    Signal,
-)
-from PySide6.QtGui import (
-    QContextMenuEvent,
-    QDragMoveEvent,
-    QDropEvent,
-    QIcon,
-    QKeyEvent,
-    QMouseEvent,
-    QPainter,
-    QResizeEvent,
-)
-from PySide6.QtWidgets import (
-    QAbstractItemView,
-    QHeaderView,
-    QMenu,
-    QStyle,
-    QStyledItemDelegate,
-    QStyleOptionViewItem,
-    QTreeView,
-    QWidget,
-)
+from PySide6.QtCore import QItemSelection, QItemSelectionModel, QModelIndex, QSize, Qt
+from PySide6.QtGui import QContextMenuEvent, QKeyEvent, QMouseEvent, QResizeEvent
+from PySide6.QtWidgets import QAbstractItemDelegate, QAbstractItemView, QHeaderView, QWidget
 
 from ...model.document.errors import Refusal
+from ...model.document.query import Query
 from ...model.editing.session import Session, State
-from ..actions import Actions
+from ..commands.actions import Actions
+from .drop_view import DropView
+from .tree_cell import TreeCell
+from .tree_filter import TreeFilter
+from .tree_menu import node_menu
 from .tree_model import BADGE, EYE, NAME, TreeModel
+from .tree_rows import adjacent
 
 OPEN_AT_MOST = 3000  # rows; a larger tree opens its first level only
 DEEP = 24  # levels from which on rows are indented less
 WIDE, NARROW = 16, 8  # pixels of indentation
 NAME_WIDTH, NARROW_COLUMN = 110, 26
-CONTEXT_MENU = (
-    "rename", "toggle_visible", "", "union", "difference", "intersection", "hull", "", "linear_array", "polar_array",
-    "mirror", "", "duplicate", "link", "unlink", "dissolve", "delete", "", "fit_selection",
-)  # fmt: skip
 
 
-class Tree(QTreeView):
-    """The nodes of the session's document. `refused` carries words for the status bar, "" takes them back."""
-
-    refused = Signal(str)
+class Tree(DropView):
+    """The nodes of the session's document."""
 
     def __init__(self, session: Session, actions: Actions, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(session, parent)
         self.setObjectName("tree")
         self.setAccessibleName("Model tree")
-        self._session = session
         self._actions = actions
         self._collapsed: set[str] = set()
         self._following = False
         self.nodes = TreeModel(session, self)
         self.nodes.refused.connect(self.refused)
         self.setModel(self.nodes)
+        self.filter = TreeFilter(self)
         self.setHeaderHidden(True)
         header = self.header()
         header.setStretchLastSection(False)
@@ -73,15 +45,12 @@ class Tree(QTreeView):
         for column in (BADGE, EYE):
             header.setSectionResizeMode(column, QHeaderView.ResizeMode.Fixed)
             header.resizeSection(column, NARROW_COLUMN)
-        self.setItemDelegate(_Cell(self))
+        self.setItemDelegate(TreeCell(self))
         self.setIconSize(QSize(18, 18))
         self.setUniformRowHeights(True)
         self.setSelectionMode(QAbstractItemView.SelectionMode.ExtendedSelection)
         self.setEditTriggers(QAbstractItemView.EditTrigger.EditKeyPressed | QAbstractItemView.EditTrigger.DoubleClicked)
         self.setExpandsOnDoubleClick(False)
-        self.setDragDropMode(QAbstractItemView.DragDropMode.DragDrop)
-        self.setDefaultDropAction(Qt.DropAction.MoveAction)
-        self.setAutoExpandDelay(500)
         self.setAlternatingRowColors(False)
         self.selectionModel().selectionChanged.connect(self._chosen)
         self.nodes.rowsInserted.connect(self._open)
@@ -101,6 +70,8 @@ class Tree(QTreeView):
                 self._fit_columns()
             finally:
                 self._following = False
+            if not self._session.previewing:
+                self.filter.refresh()
         if new or before.selection != after.selection:
             self._select(after.selection)
 
@@ -117,7 +88,7 @@ class Tree(QTreeView):
         ids = [node.id for index in self.selectionModel().selectedRows() if (node := self.nodes.node(index))]
         chosen = set(ids)
         earlier = [i for i in self._session.selection if i in chosen]  # the order counts: the first one is the base
-        self._session.select([*earlier, *(i for i in ids if i not in earlier)])
+        self._session.select(dict.fromkeys((*earlier, *ids)))
 
     def _select(self, ids: tuple[str, ...]) -> None:
         indexes = [index for i in ids if (index := self.nodes.index_of(i)).isValid()]
@@ -127,8 +98,8 @@ class Tree(QTreeView):
         self._following = True
         try:
             selection = QItemSelection()
-            for index in indexes:
-                selection.select(index, index.siblingAtColumn(EYE))
+            for first, last in adjacent(indexes):
+                selection.select(first, last.siblingAtColumn(EYE))
             flags = QItemSelectionModel.SelectionFlag
             if indexes:
                 self.selectionModel().setCurrentIndex(indexes[-1], flags.NoUpdate)
@@ -144,6 +115,16 @@ class Tree(QTreeView):
         left, bar = self.visualRect(index).left(), self.horizontalScrollBar()
         if not 0 <= left <= self.viewport().width() - NAME_WIDTH // 2:
             bar.setValue(bar.value() + left - self.viewport().width() // 3)
+
+    @property
+    def selected(self) -> tuple[str, ...]:
+        return self._session.selection
+
+    # What is searched for.
+
+    def search(self, query: Query) -> None:
+        """Show the nodes that answer to the query, and what they stand in; all where it asks for nothing."""
+        self.filter.apply(query)
 
     # What is open, and how wide it gets.
 
@@ -161,7 +142,7 @@ class Tree(QTreeView):
         self.header().resizeSection(NAME, max(room, (deepest + 1) * indentation + NAME_WIDTH))
 
     def _open_all(self) -> None:
-        if len(self.nodes._by_id) <= OPEN_AT_MOST:
+        if len(self.nodes) <= OPEN_AT_MOST:
             self.expandAll()
         else:
             self.expandToDepth(0)
@@ -184,17 +165,26 @@ class Tree(QTreeView):
 
     def _note(self, index: QModelIndex, open_: bool) -> None:
         node = self.nodes.node(index)
-        if node is not None:
+        if node is not None and not self.filter.opening:
             (self._collapsed.discard if open_ else self._collapsed.add)(node.id)
 
     # Mouse and keys.
 
     def rename_selected(self) -> None:
-        index = self.nodes.index_of(self._session.selection[-1]) if self._session.selection else QModelIndex()
+        """Edit the name of the node selected last; several get what is typed, each with its number."""
+        chosen = self._session.selection
+        index = self.nodes.index_of(chosen[-1]) if chosen else QModelIndex()
         if index.isValid():
             self.setFocus()
-            self.setCurrentIndex(index)
+            self.selectionModel().setCurrentIndex(index, QItemSelectionModel.SelectionFlag.NoUpdate)
+            self.nodes.renamed_together = frozenset(chosen if len(chosen) > 1 else ())
+            if len(chosen) > 1:
+                self.refused.emit(f"A name for {len(chosen)} nodes: # stands for the number of each")
             self.edit(index)
+
+    def closeEditor(self, editor: QWidget, hint: QAbstractItemDelegate.EndEditHint) -> None:
+        super().closeEditor(editor, hint)
+        self.nodes.renamed_together = frozenset()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         index = self.indexAt(event.position().toPoint())
@@ -219,70 +209,15 @@ class Tree(QTreeView):
             super().mouseDoubleClickEvent(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        if event.key() == Qt.Key.Key_Escape and self.state() != QAbstractItemView.State.EditingState:
+        editing = self.state() == QAbstractItemView.State.EditingState
+        if event.key() == Qt.Key.Key_Escape and not editing:
             self._session.select(())
             event.accept()
-            return
-        super().keyPressEvent(event)
+        elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and not editing and not event.modifiers():
+            self.rename_selected()
+            event.accept()
+        else:
+            super().keyPressEvent(event)
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
-        menu = QMenu(self)
-        menu.setToolTipsVisible(True)
-        menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        for name in CONTEXT_MENU:
-            if name:
-                menu.addAction(self._actions[name])
-            else:
-                menu.addSeparator()
-        menu.popup(event.globalPos())
-
-    def dragMoveEvent(self, event: QDragMoveEvent) -> None:
-        event.setDropAction(_action_of(event))
-        super().dragMoveEvent(event)
-
-    def dropEvent(self, event: QDropEvent) -> None:
-        event.setDropAction(_action_of(event))
-        super().dropEvent(event)
-        self.refused.emit("")
-
-
-def _action_of(event: QDropEvent) -> Qt.DropAction:
-    copy = event.modifiers() & Qt.KeyboardModifier.ControlModifier
-    return Qt.DropAction.CopyAction if copy else Qt.DropAction.MoveAction
-
-
-class _Cell(QStyledItemDelegate):
-    """Icons of the narrow columns stand in the middle; the editor of a name is as high as its row."""
-
-    def paint(
-        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        if index.column() == NAME:
-            super().paint(painter, option, index)
-            return
-        self.initStyleOption(option, index)
-        picture, option.icon = QIcon(option.icon), QIcon()
-        option.features &= ~QStyleOptionViewItem.ViewItemFeature.HasDecoration
-        option.widget.style().drawControl(QStyle.ControlElement.CE_ItemViewItem, option, painter, option.widget)
-        if not picture.isNull():
-            chosen = bool(option.state & QStyle.StateFlag.State_Selected)
-            quiet = index.column() == EYE and not chosen
-            area = QRect(0, 0, 16, 16)
-            area.moveCenter(option.rect.center())
-            painter.save()
-            painter.setOpacity(0.6 if quiet else 1.0)
-            picture.paint(painter, area, mode=picture.Mode.Selected if chosen else picture.Mode.Normal)
-            painter.restore()
-
-    def updateEditorGeometry(
-        self, editor: QWidget, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        super().updateEditorGeometry(editor, option, index)
-        editor.setGeometry(editor.geometry().adjusted(0, 1, 0, -1))
-
-    def eventFilter(self, editor, event) -> bool:  # type: ignore[no-untyped-def]
-        # Plain letters belong to the name being typed, not to the shortcuts of the window.
-        if event.type() == QEvent.Type.ShortcutOverride:
-            event.accept()
-            return False
-        return super().eventFilter(editor, event)
+        node_menu(self._actions, self).popup(event.globalPos())

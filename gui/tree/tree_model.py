@@ -5,26 +5,27 @@ A sub-tree that is the very object shown before is not looked at, so what is exp
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QAbstractItemModel, QMimeData, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
-from PySide6.QtGui import QGuiApplication, QPalette
+from PySide6.QtCore import QAbstractItemModel, QModelIndex, QObject, QPersistentModelIndex, Qt, Signal
+from PySide6.QtGui import QFont, QGuiApplication, QIcon, QPalette
 
+from ...model.document.distinct_colours import distinct_colour
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
 from ...model.document.nodes import Instance, Node
-from ...model.document.tree import find
-from ...model.editing.operations import OPERATIONS
+from ...model.document.primitives import OUTLINES
 from ...model.editing.session import Session
-from ..icons import icon, kind_icon, severity_icon
+from ...model.solid.provenance import begins_faces
+from ..icons import chip_icon, icon, kind_icon, severity_icon
+from .drops import MIME
 from .tree_rows import Row, longest_rising, runs
 
 if TYPE_CHECKING:
     from ...model.worker.shown import Message
 
 NAME, BADGE, EYE = range(3)
-MIME = "application/x-solidtree-nodes"
 Index = QModelIndex | QPersistentModelIndex
 NOWHERE = QModelIndex()
 
@@ -44,15 +45,22 @@ class TreeModel(QAbstractItemModel):
         self._roots: tuple[Node, ...] = ()
         self.deepest = 0
         """The level of the lowest row since the model was empty."""
-        self._definitions: frozenset[str] = frozenset()
+        self._definitions: dict[str, Node] = {}
+        self.matches: frozenset[str] = frozenset()
+        """Ids of the nodes that were searched for, shown in bold."""
+        self.renamed_together: frozenset[str] = frozenset()
+        """Ids of the nodes that all get what is typed as the name of one of them."""
         self._problems: dict[str, tuple[str, str]] = {}
+        self._colour_by_node = False
         self.update(session.document)
 
     # The document's side.
 
     def update(self, document: Document) -> None:
         """Follow the document; signals tell only what differs."""
-        self._definitions = frozenset(node.id for node in document.definitions)
+        definitions = {node.id: node for node in document.definitions}
+        relabelled = definitions.items() ^ self._definitions.items() if definitions or self._definitions else ()
+        self._definitions = definitions
         roots = document.roots
         before, self._roots = self._roots, roots
         pairs = zip(before, roots, strict=False)
@@ -70,6 +78,16 @@ class TreeModel(QAbstractItemModel):
                 self.dataChanged.emit(self._index(child, NAME), self._index(child, EYE))
                 if below:
                     stack.append((child, node.children))
+
+        if relabelled:
+            self._tell(row.node.id for row in list(self._by_id.values()) if isinstance(row.node, Instance))
+
+    def _tell(self, ids: Iterable[str]) -> None:
+        """These rows look otherwise now."""
+        for node_id in ids:
+            row = self._by_id.get(node_id)
+            if row is not None:
+                self.dataChanged.emit(self._index(row, NAME), self._index(row, EYE))
 
     def _match(self, row: Row, nodes: Sequence[Node]) -> None:
         """Make the row's children stand for the nodes, in this order, keeping the longest part that does already."""
@@ -124,10 +142,57 @@ class TreeModel(QAbstractItemModel):
                 new[problem.node_id] = ("error" if problem.error else "warning", problem.message)
         changed = [i for i in {*new, *self._problems} if new.get(i) != self._problems.get(i)]
         self._problems = new
-        for node_id in changed:
+        self._tell(changed)
+
+    @property
+    def problems(self) -> frozenset[str]:
+        """Ids of the nodes with an error or a warning."""
+        return frozenset(self._problems)
+
+    def rows(self) -> Iterator[Row]:
+        """Every row, those above before those below them, from the top of the tree to its foot."""
+        stack = list(reversed(self._root.children))
+        while stack:
+            row = stack.pop()
+            yield row
+            stack += reversed(row.children)
+
+    def top_rows(self) -> Sequence[Row]:
+        return self._root.children
+
+    def holds(self, row: Row) -> bool:
+        """Whether the row is still one of the tree's."""
+        return self._rows.get(row.key) is row
+
+    def above(self, ids: Iterable[str]) -> set[str]:
+        """The ids of the nodes in which these stand."""
+        found: set[str] = set()
+        for node_id in ids:
             row = self._by_id.get(node_id)
-            if row is not None:
-                self.dataChanged.emit(self._index(row, NAME), self._index(row, EYE))
+            above = None if row is None else row.parent
+            while above is not None and above.node is not None and above.node.id not in found:
+                found.add(above.node.id)
+                above = above.parent
+        return found
+
+    def in_order(self, ids: Collection[str]) -> list[str]:
+        """Those of the ids that are shown, from the top of the tree to its foot."""
+        return [row.node.id for row in self.rows() if row.node.id in ids]
+
+    def __len__(self) -> int:
+        return len(self._by_id)
+
+    def set_colour_by_node(self, by_node: bool) -> None:
+        """Show the nodes that make faces in the colours that Colour by node gives them."""
+        if by_node != self._colour_by_node:
+            self._colour_by_node = by_node
+            for row in self._by_id.values():
+                index = self._index(row)
+                self.dataChanged.emit(index, index, [Qt.ItemDataRole.DecorationRole])
+
+    def _picture(self, node: Node) -> QIcon:
+        makes = self._colour_by_node and begins_faces(node) and not isinstance(node, (Instance, *OUTLINES))
+        return chip_icon(type(node), distinct_colour(node.id)) if makes else kind_icon(type(node))
 
     def index_of(self, node_id: str) -> QModelIndex:
         row = self._by_id.get(node_id)
@@ -139,7 +204,10 @@ class TreeModel(QAbstractItemModel):
     def _index(self, row: Row, column: int = NAME) -> QModelIndex:
         if row.parent is None:
             return NOWHERE
-        return self.createIndex(row.parent.children.index(row), column, row.key)
+        return self.createIndex(row.place(), column, row.key)
+
+    def index_of_row(self, row: Row) -> QModelIndex:
+        return self._index(row)
 
     def _row(self, index: Index) -> Row:
         return self._rows.get(index.internalId(), self._root) if index.isValid() else self._root
@@ -174,7 +242,11 @@ class TreeModel(QAbstractItemModel):
             if role in (roles.DisplayRole, roles.EditRole):
                 return node.name if role == roles.EditRole else self._label(node)
             if role == roles.DecorationRole:
-                return kind_icon(type(node))
+                return self._picture(node)
+            if role == roles.FontRole and node.id in self.matches:
+                font = QFont()
+                font.setBold(True)
+                return font
             if role == roles.ForegroundRole and not node.visible:
                 return QGuiApplication.palette().color(QPalette.ColorGroup.Disabled, QPalette.ColorRole.Text)
             if role == roles.ToolTipRole:
@@ -193,9 +265,20 @@ class TreeModel(QAbstractItemModel):
 
     def _label(self, node: Node) -> str:
         if isinstance(node, Instance):
-            row = self._by_id.get(node.definition)
-            return node.name or (f"Instance of {row.node.label}" if row else node.label)
+            shared = self._definitions.get(node.definition)
+            if shared is None:
+                return node.label
+            if not node.name:
+                return f"Instance of {shared.label}"
+            return (
+                f"{node.name} (instance)" if node.name == shared.label else f"{node.name} (instance of {shared.label})"
+            )
         return f"{node.label} (definition)" if node.id in self._definitions else node.label
+
+    def label_of(self, node_id: str) -> str:
+        """What a node is called, "" where it is not shown."""
+        row = self._by_id.get(node_id)
+        return "" if row is None else self._label(row.node)
 
     def flags(self, index: Index) -> Qt.ItemFlag:
         flags = Qt.ItemFlag
@@ -206,82 +289,23 @@ class TreeModel(QAbstractItemModel):
 
     def setData(self, index: Index, value: Any, role: int = Qt.ItemDataRole.EditRole) -> bool:
         node = self.node(index)
-        if node is None or role != Qt.ItemDataRole.EditRole or " ".join(str(value).split()) == node.name:
+        if node is None or role != Qt.ItemDataRole.EditRole:
             return False
-        return self._try(lambda: self._session.do("rename", node.id, str(value)))
-
-    # Drag and drop.
-
-    def supportedDropActions(self) -> Qt.DropAction:
-        return Qt.DropAction.MoveAction | Qt.DropAction.CopyAction
+        if " ".join(str(value).split()) == node.name and node.id not in self.renamed_together:
+            return False
+        try:
+            if node.id in self.renamed_together:
+                ids = self.in_order(self.renamed_together)
+                self._session.do("rename_each", ids, str(value), label=f"Rename {len(ids)} nodes")
+            else:
+                self._session.do("rename", node.id, str(value))
+        except Refusal as refusal:
+            self.refused.emit(str(refusal))
+            return False
+        return True
 
     def mimeTypes(self) -> list[str]:
         return [MIME]
 
-    def mimeData(self, indexes: Sequence[QModelIndex]) -> QMimeData:
-        ids = [node.id for index in indexes if index.column() == NAME and (node := self.node(index)) is not None]
-        data = QMimeData()
-        data.setData(MIME, "\n".join(ids).encode())
-        return data
-
-    def canDropMimeData(self, data: QMimeData, action: Qt.DropAction, row: int, column: int, parent: Index) -> bool:
-        ids = ids_of(data)
-        if not ids:
-            return False
-        try:
-            self._dropped(action, ids, *self._place(row, parent))
-        except Refusal as refusal:
-            self.refused.emit(str(refusal))
-            return False
-        self.refused.emit("")
-        return True
-
-    def dropMimeData(self, data: QMimeData, action: Qt.DropAction, row: int, column: int, parent: Index) -> bool:
-        ids = ids_of(data)
-        parent_id, index = self._place(row, parent)
-        if action != Qt.DropAction.CopyAction:
-            arguments = [ids, parent_id] if index is None else [ids, parent_id, index]
-            return self._try(lambda: self._session.do("relocate", *arguments, label="Move in tree", select=ids))
-
-        def copy() -> None:
-            document, lines = self._dropped(action, ids, parent_id, index)
-            self._session.commit("Copy in tree", document, line="\n".join(lines))
-
-        return self._try(copy)
-
-    def _place(self, row: int, parent: Index) -> tuple[str | None, int | None]:
-        node = self.node(parent)
-        if node is None:
-            solids = len(self._session.document.solids)
-            return None, None if row < 0 else min(row, solids)
-        return node.id, None if row < 0 else row
-
-    def _dropped(
-        self, action: Qt.DropAction, ids: list[str], parent_id: str | None, index: int | None
-    ) -> tuple[Document, list[str]]:
-        """The document after the drop, and the lines of Python that do a copy. Raises Refusal."""
-        from ...model.editing.echo import call
-
-        document = self._session.document
-        if action != Qt.DropAction.CopyAction:
-            return OPERATIONS["relocate"](document, ids, parent_id, index), []
-        lines = []
-        for offset, node_id in enumerate(ids):
-            arguments = [find(document, node_id), parent_id, None if index is None else index + offset]
-            if index is None:
-                del arguments[2]
-            document = OPERATIONS["insert"](document, *arguments)
-            lines.append(call("insert", *arguments))
-        return document, lines
-
-    def _try(self, change: Callable[[], Any]) -> bool:
-        try:
-            change()
-        except Refusal as refusal:
-            self.refused.emit(str(refusal))
-            return False
-        return True
-
-
-def ids_of(data: QMimeData) -> list[str]:
-    return bytes(data.data(MIME).data()).decode().split("\n") if data.hasFormat(MIME) else []
+    def supportedDropActions(self) -> Qt.DropAction:
+        return Qt.DropAction.MoveAction | Qt.DropAction.CopyAction

@@ -21,17 +21,19 @@ class Drag(Enum):
     WAIT = auto()  # pressed, and not moved yet
     ORBIT = auto()
     PAN = auto()
+    MENU = auto()  # the right button pressed, and not moved yet
     CUBE = auto()
 
 
 class Navigation(QObject):
     """State of the mouse in one viewport.
 
-    `clicked` tells a pick or None and whether Ctrl was held, `fit_asked` and `hovered` a pick or None, `view_asked` the
-    name of a view.
+    `clicked` tells where and which keys were held, `menu_asked` where the right button was, `fit_asked` and `hovered` a
+    pick or None, `view_asked` the name of a view.
     """
 
-    clicked = Signal(object, bool)
+    clicked = Signal(QPointF, object)
+    menu_asked = Signal(QPointF)
     fit_asked = Signal(object)
     view_asked = Signal(str)
     hovered = Signal(object)
@@ -61,10 +63,13 @@ class Navigation(QObject):
         self._button = event.button()
         self._pressed = self._last = event.position()
         x, y = self._last.x(), self._last.y()
-        shift = bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        held = event.modifiers()
+        shift = bool(held & Qt.KeyboardModifier.ShiftModifier) and not held & Qt.KeyboardModifier.AltModifier
         if self._button == Qt.MouseButton.LeftButton and self._viewer.cube_hit(x, y):
             self._drag = Drag.CUBE
-        elif self._button == Qt.MouseButton.RightButton or (shift and self._button != Qt.MouseButton.NoButton):
+        elif self._button == Qt.MouseButton.RightButton:
+            self._drag = Drag.MENU
+        elif shift and self._button != Qt.MouseButton.NoButton:
             self._drag = Drag.PAN
         elif self._button == Qt.MouseButton.MiddleButton:
             self._drag = Drag.ORBIT
@@ -81,10 +86,10 @@ class Navigation(QObject):
             self._viewer.set_cube_hover(cube)
             self._rest.start()
             return
-        if self._drag in (Drag.WAIT, Drag.CUBE):
+        if self._drag in (Drag.WAIT, Drag.CUBE, Drag.MENU):
             if (position - self._pressed).manhattanLength() <= SLACK:
                 return
-            self._drag = Drag.ORBIT
+            self._drag = Drag.PAN if self._drag is Drag.MENU else Drag.ORBIT
         step = position - self._last
         self._last = position
         camera = self._viewer.camera
@@ -105,8 +110,9 @@ class Navigation(QObject):
             if name:
                 self.view_asked.emit(name)
         elif drag is Drag.WAIT:
-            adds = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
-            self.clicked.emit(self._viewer.pick(x, y), adds)
+            self.clicked.emit(event.position(), event.modifiers())
+        elif drag is Drag.MENU:
+            self.menu_asked.emit(event.position())
 
     def double_click(self, event: QMouseEvent) -> None:
         x, y = event.position().x(), event.position().y()

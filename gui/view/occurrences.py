@@ -19,6 +19,11 @@ if TYPE_CHECKING:
 Path = tuple[str | int, ...]
 
 
+def maker_of(path: Path) -> str:
+    """The id of the node that an owner's path ends at."""
+    return next(str(part) for part in reversed(path) if isinstance(part, str))
+
+
 def paths_through(ids: Iterable[str], owners: Iterable[Iterable[Path]]) -> set[Path]:
     """The parts of the owners' paths that end at one of the nodes."""
     wanted = set(ids)
@@ -43,13 +48,19 @@ def selected_bounds(ids: Iterable[str], meshes: Iterable[DisplayMesh]) -> NDArra
     return np.array([np.min(lower, axis=0), np.max(upper, axis=0)], float)
 
 
-def paint_of(document: Document, root: Node, mesh: DisplayMesh) -> Paint:
-    """Each owner's colour: that of the lowest coloured node on its path below the root, the root's by default."""
+def paint_of(document: Document, root: Node, mesh: DisplayMesh, by_node: bool = False) -> Paint:
+    """Each owner's colour: that of the lowest coloured node on its path below the root, the root's by default; or one
+    for each node that made faces, whatever its colour."""
     from ...render.look import Paint
 
-    colours = {node.id: node.colour for node in walk(root, *document.definitions) if node.colour is not None}
+    if by_node:
+        from ...model.document.distinct_colours import distinct_colour
+
+        return Paint(None, tuple(distinct_colour(maker_of(path)) for path in mesh.owners))
+    nodes = (node for node in walk(root, *document.definitions) if node is not root)
+    colours = {node.id: node.colour for node in nodes if node.colour is not None}
     if not colours:
-        return Paint()
+        return Paint(root.colour)
     owners = tuple(
         next((colours[part] for part in reversed(path) if isinstance(part, str) and part in colours), None)
         for path in mesh.owners

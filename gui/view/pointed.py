@@ -1,48 +1,102 @@
-"""Which node of the document a picked face belongs to, and how that is said."""
+"""Which nodes of the document a picked face belongs to, and how that is said."""
 
 from __future__ import annotations
 
+from html import escape
 from typing import TYPE_CHECKING
 
 from ...model.document.document import Document
+from ...model.document.nodes import Node
+from ...model.document.resolve import Resolver
 from ...model.document.tree import walk
 from ...model.editing.session import Session
 
 if TYPE_CHECKING:
+    from ...model.solid.roles import Role
     from ...render.pick import Pick
 
 Path = tuple[str | int, ...]
 
+LEVELS = 6
+"""Names of a chain that are told; of a longer one those in the middle are left out."""
+ARROW = " › "  # noqa: RUF001
+
 
 class Pointed:
-    """Answers for one session; the labels of a document's nodes are collected once."""
+    """Answers for one session; a document's nodes are collected once."""
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._labels: tuple[Document, dict[str, str]] | None = None
+        self._nodes: tuple[Document, dict[str, Node]] | None = None
+        self._resolver = Resolver()
 
-    def labels(self) -> dict[str, str]:
-        """The labels of all nodes by id."""
+    def nodes(self) -> dict[str, Node]:
+        """All nodes by id."""
         document = self._session.document
-        if self._labels is None or self._labels[0] is not document:
-            self._labels = (document, {node.id: node.label for node in walk(*document.roots)})
-        return self._labels[1]
+        if self._nodes is None or self._nodes[0] is not document:
+            self._nodes = (document, {node.id: node for node in walk(*document.roots)})
+        return self._nodes[1]
+
+    def chain(self, pick: Pick | None) -> tuple[str, ...]:
+        """The nodes from the one that made the face up to the solid, as far as they stand in the document."""
+        known = self.nodes()
+        path = () if pick is None else pick.path
+        return tuple(dict.fromkeys(part for part in reversed(path) if isinstance(part, str) and part in known))
 
     def owner(self, pick: Pick | None) -> str | None:
         """The deepest node of the picked face's path that stands in the document."""
-        known = self.labels()
-        path = () if pick is None else pick.path
-        return next((part for part in reversed(path) if isinstance(part, str) and part in known), None)
+        return next(iter(self.chain(pick)), None)
 
     def path(self, pick: Pick | None) -> Path | None:
         """The picked face's path as far as `owner`."""
         owner = self.owner(pick)
         return None if pick is None or owner is None else pick.path[: len(pick.path) - pick.path[::-1].index(owner)]
 
+    def role(self, path: Path) -> Role:
+        """What becomes of the occurrence in its solid."""
+        from ...model.solid.roles import role_of
+
+        return role_of(self._resolver.resolve(self._session.view).solids, path)
+
     def words(self, pick: Pick | None) -> str:
-        """The names on the way to the face, and its facet; "" for nothing."""
-        path, labels = self.path(pick), self.labels()
+        """The names on the way to the face, selected ones in brackets, what made it, where it is; "" for nothing."""
+        path = self.path(pick)
         if pick is None or path is None:
             return ""
-        names = " › ".join(labels[part] for part in path if isinstance(part, str) and part in labels)  # noqa: RUF001
-        return f"{names} — facet {pick.facet}{', left by a subtracted part' if pick.subtracted else ''}"
+        x, y, z = (f"{value:.4g}" for value in pick.point)
+        return f"{self._trail(path)} — {self._kind(pick, path)} — ({x}, {y}, {z})"
+
+    def tip(self, pick: Pick | None) -> str:
+        """The same in short, as rich text in two lines."""
+        path = self.path(pick)
+        if pick is None or path is None:
+            return ""
+        return f"<b>{escape(self.nodes()[str(path[-1])].label)}</b><br>{escape(self._kind(pick, path))}"
+
+    def entry(self, pick: Pick) -> str:
+        """The face's owner and its role, for a list of what lies under the pointer."""
+        path = self.path(pick)
+        if path is None:
+            return ""
+        role, label = self.role(path), self.nodes()[str(path[-1])].label
+        return f"{label} ({role})" if role else label
+
+    def _trail(self, path: Path) -> str:
+        nodes, chosen = self.nodes(), self._session.selection
+        names: list[str] = []
+        for part in path:
+            if isinstance(part, int):
+                if names:
+                    names[-1] += f" #{part + 1}"  # the copy of an array
+            elif part in nodes:
+                label = nodes[part].label
+                names.append(f"[{label}]" if part in chosen else label)
+        if len(names) > LEVELS:
+            names[2 : len(names) - LEVELS + 3] = ["…"]
+        return ARROW.join(names)
+
+    def _kind(self, pick: Pick, path: Path) -> str:
+        role = self.role(path)
+        parts = [self.nodes()[str(path[-1])].title.lower(), *([str(role)] if role else [])]
+        parts.append("cut face" if pick.facet < 0 else f"facet {pick.facet}")
+        return ", ".join(parts)

@@ -1,4 +1,4 @@
-"""The picture in the middle: a native widget that a Viewer draws into, once for each pass of the event loop at most."""
+"""The picture in the middle: a canvas that a Viewer draws into, and who gets its events: tools, then navigation."""
 
 from __future__ import annotations
 
@@ -6,14 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QEvent, QSize, Qt, QTimer, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPaintEngine, QPaintEvent, QResizeEvent, QShowEvent, QWheelEvent
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QEvent, QPoint, QPointF, QRect, QSize, Qt, Signal
+from PySide6.QtGui import QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
+from PySide6.QtWidgets import QToolTip, QWidget
 
 from ...model.editing.session import Session, State
+from .canvas import Canvas
 from .flight import Flight
-from .occurrences import paint_of, paths_through, selected_bounds
-from .pointed import Pointed
+from .occurrences import Path, paint_of, paths_through, selected_bounds
+from .pointing import Pointing
 
 if TYPE_CHECKING:
     from ...render.camera import Camera
@@ -23,29 +24,25 @@ if TYPE_CHECKING:
     from .navigation import Navigation
 
 
-class Viewport(QWidget):
+class Viewport(Canvas):
     """Shows meshes by root id. VTK is loaded by `attach`, when the window is already on the screen.
 
-    `exposed` comes once, when it is on the screen, and `ready` once, after `attach`; `hovered` carries words on what
-    lies under the pointer, "" for nothing.
+    `ready` comes once, after `attach`; `hovered` carries words on what lies under the pointer, "" for nothing;
+    `menu_asked` is Pointing's.
     """
 
-    exposed = Signal()
     ready = Signal()
     hovered = Signal(str)
+    menu_asked = Signal(list, QPoint)
     view_changed = Signal()
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setObjectName("viewport")
         self.setAccessibleName("Viewport")
-        self.setAttribute(Qt.WidgetAttribute.WA_NativeWindow)
-        self.setAttribute(Qt.WidgetAttribute.WA_DontCreateNativeAncestors)
-        self.setAttribute(Qt.WidgetAttribute.WA_PaintOnScreen)
-        self.setAttribute(Qt.WidgetAttribute.WA_NoSystemBackground)
-        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)  # a right drag pans: a click alone asks
         self.setMinimumSize(200, 150)
         self.viewer: Viewer | None = None
         self.navigation: Navigation | None = None
@@ -54,13 +51,10 @@ class Viewport(QWidget):
         self._session = session
         self._meshes: dict[str, Any] = {}
         self._kept: dict[str, tuple[Any, Any, Any, Any]] = {}
-        self._pointed = Pointed(session)
+        self._by_node = False
+        self.pointing: Pointing | None = None
         self._fit_pending = True
-        self._exposed = False
         self._pending: list[Callable[[Viewer], None]] = []
-        self._timer = QTimer(self)
-        self._timer.setSingleShot(True)
-        self._timer.timeout.connect(self._render)
         self.flight = Flight(self)
         self.flight.moved.connect(self._flown)
 
@@ -71,11 +65,15 @@ class Viewport(QWidget):
 
         self.viewer = Viewer(int(self.winId()), theme)
         self.navigation = navigation = Navigation(self.viewer, self)
-        navigation.clicked.connect(self._clicked)
+        self.pointing = pointing = Pointing(self._session, self.viewer, self)
+        pointing.said.connect(self.hovered)
+        pointing.menu_asked.connect(self.menu_asked)
+        navigation.clicked.connect(pointing.click)
+        navigation.menu_asked.connect(self._ask_menu)
         navigation.fit_asked.connect(self._fit_picked)
         navigation.view_asked.connect(self.look_from)
         navigation.hovered.connect(self._hovered)
-        self._resized()
+        self.resized()
         self.viewer.fit()
         for change in self._pending:
             change(self.viewer)
@@ -84,17 +82,17 @@ class Viewport(QWidget):
             tool.attached(self.viewer)
         if self._meshes:
             self._show()
-        self._render()
+        self.draw()
         self.ready.emit()
 
     def close_viewer(self) -> None:
         """Free the graphics card, before the native window goes."""
-        self._timer.stop()
+        self.stop_drawing()
         self.flight.stop()
         if self.viewer is not None:
             for tool in self.tools:
                 tool.closing()
-            viewer, self.viewer, self.navigation = self.viewer, None, None
+            viewer, self.viewer, self.navigation, self.pointing = self.viewer, None, None, None
             viewer.close()
 
     def add_tool(self, tool: Tool) -> None:
@@ -113,8 +111,12 @@ class Viewport(QWidget):
 
     def refresh(self) -> None:
         """Draw soon; many calls in one pass of the event loop draw once."""
-        if self.viewer is not None and self.viewer.needs_render and not self._timer.isActive():
-            self._timer.start(0)
+        if self.viewer is None:
+            return
+        dragging = self.navigation is not None and self.navigation.dragging
+        self.viewer.set_moving(dragging or self._session.previewing)
+        if self.viewer.needs_render:
+            self.draw_soon()
 
     # What is shown.
 
@@ -126,7 +128,7 @@ class Viewport(QWidget):
             tool.shown()
 
     def session_changed(self, before: State, after: State) -> None:
-        if before.document is not after.document:
+        if before.document is not after.document or before.isolated != after.isolated:
             self._show()  # colours and visibility need no evaluation
         elif before.selection != after.selection:
             self._highlight()
@@ -140,7 +142,7 @@ class Viewport(QWidget):
     def _show(self) -> None:
         if self.viewer is None:
             return
-        document = self._session.document
+        document = self._session.view
         shown = {}
         kept = {}
         for root in document.solids:
@@ -149,7 +151,7 @@ class Viewport(QWidget):
                 continue
             old = self._kept.get(root.id)
             if old is None or old[0] is not root or old[1] is not document.definitions or old[2] is not mesh:
-                old = (root, document.definitions, mesh, paint_of(document, root, mesh))
+                old = (root, document.definitions, mesh, paint_of(document, root, mesh, self._by_node))
             kept[root.id] = old
             shown[root.id] = (mesh, old[3])
         self._kept = kept
@@ -159,6 +161,13 @@ class Viewport(QWidget):
             self._fit_pending = False
             self.viewer.fit()
         self.refresh()
+
+    def set_colour_by_node(self, by_node: bool) -> None:
+        """Colour each face by the node that made it, or as the nodes are coloured."""
+        if by_node != self._by_node:
+            self._by_node = by_node
+            self._kept = {}
+            self._show()
 
     def _highlight(self) -> None:
         if self.viewer is not None:
@@ -180,11 +189,13 @@ class Viewport(QWidget):
             self.move_to(self.viewer.fitted())
 
     def fit_selection(self) -> None:
-        """Fit the faces of the selected nodes; all where none is seen."""
+        """Fit the faces and the ghosts of the selected nodes; all where there are none."""
         if self.viewer is None:
             return
+        from ...render.picture import union
+
         bounds = selected_bounds(self._session.selection, [entry[2] for entry in self._kept.values()])
-        self._fit_bounds(bounds)
+        self._fit_bounds(union(bounds, self.viewer.ghosts.bounds))
 
     def _fit_bounds(self, bounds: Any) -> None:
         from ...render.camera import fit
@@ -206,28 +217,33 @@ class Viewport(QWidget):
 
     # The pointer.
 
-    def _clicked(self, pick: Pick | None, adds: bool) -> None:
-        owner, selection = self._pointed.owner(pick), self._session.selection
-        if owner is None:
-            if not adds:
-                self._session.select(())
-        elif not adds:
-            self._session.select((owner,))
-        elif owner in selection:
-            self._session.select(i for i in selection if i != owner)
-        else:
-            self._session.select((*selection, owner))
-
     def _fit_picked(self, pick: Pick | None) -> None:
-        owner = self._pointed.owner(pick)
-        meshes = [entry[2] for entry in self._kept.values()]
-        self._fit_bounds(None if owner is None else selected_bounds((owner,), meshes))
+        if self.pointing is not None:
+            meshes = [entry[2] for entry in self._kept.values()]
+            ids = self.pointing.double_click(pick)
+            self._fit_bounds(selected_bounds(ids, meshes) if ids else None)
 
     def _hovered(self, pick: Pick | None) -> None:
-        if self.viewer is not None:
-            self.viewer.set_hover(self._pointed.path(pick))
-            self.hovered.emit(self._pointed.words(pick))
+        if self.pointing is not None:
+            self.pointing.hover(pick)
             self.refresh()
+
+    def tint(self, path: Path | None) -> None:
+        """Tint what stands at or below the path as what is under the pointer; None ends it."""
+        if self.viewer is not None:
+            self.viewer.set_hover(path)
+            self.refresh()
+
+    def _ask_menu(self, position: QPointF) -> None:
+        if self.pointing is not None:
+            self.pointing.menu(position, self.mapToGlobal(position.toPoint()))
+
+    def event(self, event: QEvent) -> bool:
+        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
+            tip = "" if self.pointing is None else self.pointing.tip()
+            QToolTip.showText(event.globalPos(), tip, self, QRect(event.pos() - QPoint(2, 2), QSize(5, 5)))
+            return True
+        return super().event(event)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
         self.flight.stop()
@@ -290,6 +306,9 @@ class Viewport(QWidget):
             self.refresh()
         elif event.key() == Qt.Key.Key_Escape:
             self._session.select(())
+        elif event.key() == Qt.Key.Key_Menu:
+            pointer = self.mapFromGlobal(self.cursor().pos())
+            self._ask_menu(QPointF(pointer if self.rect().contains(pointer) else self.rect().center()))
         elif self.viewer is not None and (camera := turned(self.viewer.camera, Qt.Key(event.key()))) is not None:
             self.move_to(camera)
         else:
@@ -297,33 +316,12 @@ class Viewport(QWidget):
 
     # The widget.
 
-    def paintEngine(self) -> QPaintEngine:
-        return None  # type: ignore[return-value]  # VTK paints
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        if not self._exposed:
-            self._exposed = True
-            self.exposed.emit()
-        elif self.viewer is not None and not self._timer.isActive():
-            self._timer.start(0)
-
-    def showEvent(self, event: QShowEvent) -> None:
-        super().showEvent(event)
-        self._resized()
-
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        super().resizeEvent(event)
-        self._resized()
-
-    def sizeHint(self) -> QSize:
-        return QSize(900, 640)
-
-    def _resized(self) -> None:
+    def resized(self) -> None:
         if self.viewer is not None:
             self.viewer.resize(self.width(), self.height(), self.devicePixelRatioF())
             self.refresh()
 
-    def _render(self) -> None:
+    def draw(self) -> None:
         if self.viewer is not None and self.isVisible():
             self.viewer.render()
             self.view_changed.emit()

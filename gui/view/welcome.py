@@ -7,7 +7,7 @@ from pathlib import Path
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
 from PySide6.QtWidgets import QFrame, QGridLayout, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from ..actions import Actions
+from ..commands.actions import Actions
 
 FIRST = ("add_box", "add_sphere", "add_cylinder", "add_halfspace")
 RECENT = 4
@@ -26,13 +26,15 @@ class Welcome(QFrame):
         self.setProperty("welcome", True)
         self._viewport = viewport
         viewport.installEventFilter(self)
+        self._actions = actions
+        self._keys: dict[str, QLabel] = {}
         title = QLabel("Start with a solid", self)
         title.setProperty("title", True)
         keys = QGridLayout()
         keys.setHorizontalSpacing(12)
         keys.setVerticalSpacing(6)
         for row, name in enumerate(FIRST):
-            key = QLabel(actions[name].shortcut().toString(), self)
+            key = self._keys[name] = QLabel(self)
             key.setProperty("key", True)
             key.setAlignment(Qt.AlignmentFlag.AlignCenter)
             button = QPushButton(actions[name].icon(), actions[name].text(), self)
@@ -43,6 +45,8 @@ class Welcome(QFrame):
             keys.addWidget(key, row, 0)
             keys.addWidget(button, row, 1, Qt.AlignmentFlag.AlignLeft)
         keys.setColumnStretch(1, 1)
+        self._follow_keys()
+        actions.keys_changed.connect(self._follow_keys)
         buttons = QHBoxLayout()
         buttons.setSpacing(8)
         for name, text in (("open", "Open a file …"), ("palette", "Find a command …")):
@@ -79,6 +83,11 @@ class Welcome(QFrame):
             button.clicked.connect(lambda _=False, path=path: self.open_asked.emit(path))
             self._recent.addWidget(button, 0, Qt.AlignmentFlag.AlignLeft)
         self._centre()
+
+    def _follow_keys(self) -> None:
+        for name, label in self._keys.items():
+            label.setText(self._actions[name].shortcut().toString())
+            label.setVisible(bool(label.text()))
 
     def set_empty(self, empty: bool) -> None:
         """Show the card over an empty document alone."""

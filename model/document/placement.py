@@ -217,7 +217,7 @@ def axis_turn(axis: int, degrees: float) -> NDArray[np.float64]:
     quarter, rest = divmod(degrees % 360, 90)
     cos, sin = (np.cos(np.radians(degrees)), np.sin(np.radians(degrees)))
     if rest == 0:
-        cos, sin = ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarter)]
+        cos, sin = ((1, 0), (0, 1), (-1, 0), (0, -1))[int(quarter) % 4]  # -1e-300 % 360 is 360
     result = np.eye(3)
     i, j = (axis + 1) % 3, (axis + 2) % 3
     result[i, i], result[i, j], result[j, i], result[j, j] = cos, -sin, sin, cos

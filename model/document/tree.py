@@ -45,6 +45,21 @@ def trail(document: Document, node_id: str) -> tuple[Node, ...]:
     raise Refusal(f"there is no node {node_id} in the document")
 
 
+def homes(document: Document, ids: Iterable[str]) -> dict[str, Node]:
+    """The roots of the trees that hold these nodes, by id, in the order of the ids; unknown ids are left out."""
+    wanted = list(ids)
+    missing = set(wanted)
+    held: dict[str, Node] = {}
+    for root in document.roots:
+        if not missing:
+            break
+        for node in walk(root):
+            if node.id in missing:
+                missing.discard(node.id)
+                held[node.id] = root
+    return {held[node_id].id: held[node_id] for node_id in wanted if node_id in held}
+
+
 def parent(document: Document, node_id: str) -> Node | None:
     """The node above, or None for a root. Raises Refusal."""
     nodes = trail(document, node_id)

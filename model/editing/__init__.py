@@ -1,1 +1,1 @@
-"""What can be done to a document, and the session that does it. Imports from ..document."""
+"""The session that changes a document, the commands that do it, and the lines of Python they echo."""

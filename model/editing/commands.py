@@ -11,7 +11,7 @@ from typing import Any
 
 from ..document.nodes import Instance, Node
 from ..document.primitives import Box, Circle, Cone, Cylinder, Extrude, Halfspace, Rectangle, Revolve, Sphere, Torus
-from ..document.tree import find, index_of, parent
+from .chosen import chosen
 from .session import Session
 
 
@@ -32,7 +32,9 @@ class Command:
     """For a switch: whether it is on."""
 
 
-def _selected(fewest: int = 1, most: int | None = None) -> Callable[[Session], str | None]:
+def chosen_fault(fewest: int = 1, most: int | None = None) -> Callable[[Session], str | None]:
+    """A fault for commands that take so many selected nodes; most None: any number."""
+
     def fault(session: Session) -> str | None:
         count = len(session.selection)
         if count < fewest:
@@ -44,36 +46,36 @@ def _selected(fewest: int = 1, most: int | None = None) -> Callable[[Session], s
     return fault
 
 
-def _chosen(session: Session) -> Node:
-    return find(session.document, session.selection[0])
+def place_beside(session: Session) -> list[Any]:
+    """Where new nodes go, as the last arguments of `insert`.
+
+    Into a selected operation that has room, beside a selected operand, else (no arguments) they are solids.
+    """
+    if len(session.selection) != 1:
+        return []
+    looked = chosen(session)
+    node, above = looked.nodes[0], looked.above[0]
+    if type(node).operands[1] is None and not isinstance(node, Instance):
+        return [node.id]
+    if above is not None and type(above).operands[1] is None:
+        return [above.id, looked.places[0] + 1]
+    return []
 
 
 def _add(kind: Callable[[], Node]) -> Callable[[Session], None]:
-    """Into a selected operation that has room, beside a selected operand, else as a solid of its own."""
-
     def run(session: Session) -> None:
         node = kind()
-        parent_id, index = None, None
-        if len(session.selection) == 1:
-            chosen = _chosen(session)
-            most = type(chosen).operands[1]
-            above = parent(session.document, chosen.id)
-            if most is None and not isinstance(chosen, Instance):
-                parent_id = chosen.id
-            elif above is not None and type(above).operands[1] is None:
-                parent_id, index = above.id, index_of(session.document, chosen.id) + 1
-        arguments = [node] if parent_id is None else [node, parent_id] if index is None else [node, parent_id, index]
-        session.do("insert", *arguments, label=f"Add {node.title.lower()}")
+        session.do("insert", node, *place_beside(session), label=f"Add {node.title.lower()}")
 
     return run
 
 
 def _combine(kind: str, title: str) -> Callable[[Session], None]:
-    return lambda session: _done(session.do("combine", kind, list(session.selection), label=title))
+    return lambda session: done(session.do("combine", kind, list(session.selection), label=title))
 
 
-def _done(_: object) -> None:
-    return None
+def done(_: object) -> None:
+    """Lets a call that answers stand where nothing is asked."""
 
 
 def _add_command(kind: type[Node], shortcut: str, tip: str, make: Callable[[], Node] | None = None) -> Command:
@@ -83,12 +85,11 @@ def _add_command(kind: type[Node], shortcut: str, tip: str, make: Callable[[], N
 
 
 def _combine_command(kind: str, title: str, shortcut: str, tip: str, toolbar: bool = True) -> Command:
-    return Command(kind, title, "Combine", _combine(kind, title), _selected(), shortcut, kind, tip, toolbar)
+    return Command(kind, title, "Combine", _combine(kind, title), chosen_fault(), shortcut, kind, tip, toolbar)
 
 
 def _visibility(session: Session) -> None:
-    nodes = [find(session.document, i) for i in session.selection]
-    show = not all(node.visible for node in nodes)
+    show = not all(node.visible for node in chosen(session).nodes)
     session.do("set_visible", list(session.selection), show, label="Show" if show else "Hide")
 
 
@@ -101,12 +102,13 @@ def _redo_fault(session: Session) -> str | None:
 
 
 def _dissolve_fault(session: Session) -> str | None:
-    return _selected(1, 1)(session) or (None if _chosen(session).children else "a primitive has nothing to set free")
+    bare = [node for node in chosen(session).nodes if not node.children]
+    return chosen_fault()(session) or (f"“{bare[0].label}” has no operands to set free" if bare else None)
 
 
 def _unlink_fault(session: Session) -> str | None:
-    wrong = None if session.selection and isinstance(_chosen(session), Instance) else "select an instance"
-    return _selected(1, 1)(session) or wrong
+    whole = all(isinstance(node, Instance) for node in chosen(session).nodes)
+    return chosen_fault()(session) or (None if whole else "select an instance")
 
 
 DOCUMENT_COMMANDS: tuple[Command, ...] = (
@@ -126,20 +128,20 @@ DOCUMENT_COMMANDS: tuple[Command, ...] = (
     _combine_command("linear_array", "Linear array", "", "Copies in a row", False),
     _combine_command("polar_array", "Polar array", "", "Copies around an axis", False),
     _combine_command("mirror", "Mirror", "", "With its mirror image", False),
-    Command("undo", "Undo", "Edit", lambda s: _done(s.undo()), _undo_fault, "Ctrl+Z", "undo", "Take back the last step",
+    Command("undo", "Undo", "Edit", lambda s: done(s.undo()), _undo_fault, "Ctrl+Z", "undo", "Take back the last step",
             True),
-    Command("redo", "Redo", "Edit", lambda s: _done(s.redo()), _redo_fault, "Ctrl+Shift+Z", "redo",
+    Command("redo", "Redo", "Edit", lambda s: done(s.redo()), _redo_fault, "Ctrl+Shift+Z", "redo",
             "Do again what was taken back", True),
-    Command("delete", "Delete", "Edit", lambda s: _done(s.do("delete", list(s.selection))), _selected(), "Delete",
+    Command("delete", "Delete", "Edit", lambda s: done(s.do("delete", list(s.selection))), chosen_fault(), "Delete",
             "delete", "Take the selected nodes out"),
-    Command("duplicate", "Duplicate", "Edit", lambda s: _done(s.do("duplicate", list(s.selection))), _selected(),
+    Command("duplicate", "Duplicate", "Edit", lambda s: done(s.do("duplicate", list(s.selection))), chosen_fault(),
             "Ctrl+Shift+D", "duplicate", "Copy the selected nodes, each beside its original"),
-    Command("dissolve", "Dissolve", "Edit", lambda s: _done(s.do("dissolve", s.selection[0])), _dissolve_fault,
-            "Ctrl+Shift+G", "dissolve", "Replace an operation by its operands"),
-    Command("link", "Link", "Edit", lambda s: _done(s.do("link", s.selection[0])), _selected(1, 1), "", "link",
-            "Make a definition of it, which instances share"),
-    Command("unlink", "Unlink", "Edit", lambda s: _done(s.do("unlink", s.selection[0])), _unlink_fault, "", "unlink",
+    Command("dissolve", "Dissolve", "Edit", lambda s: done(s.do("dissolve", list(s.selection))), _dissolve_fault,
+            "Ctrl+Shift+G", "dissolve", "Replace operations by their operands"),
+    Command("link", "Link", "Edit", lambda s: done(s.do("link", list(s.selection))), chosen_fault(), "", "link",
+            "Make a definition of it, which instances share; equal nodes come to share one"),
+    Command("unlink", "Unlink", "Edit", lambda s: done(s.do("unlink", list(s.selection))), _unlink_fault, "", "unlink",
             "Make an instance a part of its own"),
-    Command("toggle_visible", "Show or hide", "Edit", _visibility, _selected(), "H", "eye",
+    Command("toggle_visible", "Show or hide", "Edit", _visibility, chosen_fault(), "H", "eye",
             "Hide the selected nodes, or show them again"),
 )  # fmt: skip

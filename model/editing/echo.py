@@ -11,7 +11,7 @@ from ..document.nodes import Instance, Node, field_specs
 from ..document.placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
 from ..document.table import to_table
 from ..document.tree import numbered
-from .parameters import parameter_arguments
+from ..operations.parameters import parameter_arguments
 
 MAX_NESTING = 60
 """Python cannot read calls nested some 200 deep; such a tree is written as its table."""
@@ -64,7 +64,8 @@ def step(before: Document, after: Document, name: str, *arguments: Any, **keywor
     return "\n".join([*lines, call(name, *arguments, **keywords)])
 
 
-def _depth(root: Node) -> int:
+def depth(root: Node) -> int:
+    """How many levels a tree has."""
     deepest, stack = 0, [(root, 1)]
     while stack:
         node, depth = stack.pop()
@@ -75,7 +76,7 @@ def _depth(root: Node) -> int:
 
 def _argument(value: Any) -> str:
     if isinstance(value, Node):
-        if _depth(value) <= MAX_NESTING:
+        if depth(value) <= MAX_NESTING:
             return script_of(value)
         return f"{_argument(Document(solids=numbered([value])))}.solids[0]"
     if isinstance(value, Document):
@@ -84,6 +85,8 @@ def _argument(value: Any) -> str:
         return _step(value).removeprefix(".")
     if isinstance(value, list):
         return f"[{', '.join(_argument(item) for item in value)}]"
+    if isinstance(value, dict):
+        return f"{{{', '.join(f'{key!r}: {_argument(item)}' for key, item in value.items())}}}"
     if isinstance(value, type) and issubclass(value, Node):
         return repr(function_name(value))
     return number_text(value)

@@ -9,18 +9,21 @@ from typing import Any
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.tree import walk
+from ..operations.operations import OPERATIONS
 from . import echo
-from .operations import OPERATIONS
+from .isolating import isolated, isolation_fault
 
 DEPTH = 1000
 
 
 @dataclass(frozen=True, slots=True)
 class State:
-    """What a view shows: the document, and the ids of the selected nodes in the order of selection."""
+    """What a view shows: the document, the ids of the selected nodes in the order of selection, and those that are
+    shown alone (none: all are shown)."""
 
     document: Document
     selection: tuple[str, ...] = ()
+    isolated: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,13 +52,15 @@ class Session:
         self._lines: list[str] = []
         self._undone_lines: list[str] = []
         self._shown: Document | None = None
+        self._isolated: tuple[str, ...] = ()
+        self._view: tuple[Document, tuple[str, ...], Document] | None = None
         self._saved = self._state.document
         self._listeners: list[Callable[[State, State], None]] = []
 
     @property
     def state(self) -> State:
         """The committed document, or the previewed one, and the selection."""
-        return self._state if self._shown is None else State(self._shown, self._state.selection)
+        return State(self.document, self._state.selection, self._isolated)
 
     @property
     def document(self) -> Document:
@@ -64,6 +69,30 @@ class Session:
     @property
     def selection(self) -> tuple[str, ...]:
         return self._state.selection
+
+    @property
+    def isolated(self) -> tuple[str, ...]:
+        """The ids of the nodes that are shown alone; empty where all is shown. Not a part of the history."""
+        return self._isolated
+
+    @property
+    def view(self) -> Document:
+        """What the picture shows: the document, or the isolated nodes of it as solids of their own."""
+        document = self.document
+        if not self._isolated:
+            return document
+        if self._view is None or self._view[0] is not document or self._view[1] != self._isolated:
+            self._view = (document, self._isolated, isolated(document, self._isolated))
+        return self._view[2]
+
+    def isolate(self, ids: Iterable[str]) -> None:
+        """Show these nodes alone, or everything again where there are none. Raises Refusal."""
+        wanted = _held(self.document, ids)
+        if wanted:
+            isolated(self.document, wanted)  # may refuse
+        if wanted != self._isolated:
+            before, self._isolated = self.state, wanted
+            self._tell(before)
 
     @property
     def log(self) -> tuple[str, ...]:
@@ -76,6 +105,11 @@ class Session:
     @property
     def modified(self) -> bool:
         return self._state.document is not self._saved
+
+    @property
+    def saved(self) -> Document:
+        """The document as it was opened or last saved."""
+        return self._saved
 
     @property
     def undo_label(self) -> str | None:
@@ -174,7 +208,7 @@ class Session:
         return self._go(done.after)
 
     def _go(self, state: State) -> bool:
-        before, self._state = self._state, state
+        before, self._state = self.state, state
         self._tell(before)
         return True
 
@@ -193,6 +227,7 @@ class Session:
         self._shown = None
         self._past, self._future, self._lines, self._undone_lines = [], [], [], []
         self._state = State(document)
+        self._isolated = ()
         self._saved = document
         self._tell(before)
 
@@ -202,6 +237,9 @@ class Session:
         self._tell(self.state)
 
     def _tell(self, before: State) -> None:
+        if self._isolated and self.document is not before.document:
+            held = _held(self.document, self._isolated)
+            self._isolated = held if isolation_fault(self.document, held) is None else ()
         after = self.state
         for listener in tuple(self._listeners):
             listener(before, after)

@@ -69,7 +69,7 @@ def display_mesh(mesh: Mesh64, owner_of_run: NDArray[np.int32], owners: tuple[Pa
     corner_point = np.empty(3 * count, dtype=np.int64)
     corner_point[order] = np.cumsum(first) - 1
     vertex, pair_facet = np.divmod(pairs, facets)
-    angle = np.bincount(corner_point, _angles(sides).reshape(-1), len(pairs))
+    angle = np.bincount(corner_point, _angles(sides).reshape(-1), len(pairs)).astype(np.float64)
     owner_of_facet = np.empty(facets, dtype=np.int64)
     owner_of_facet[facet] = 2 * owner + subtracted
     normals = _smooth(vertex, facet_normal[pair_facet], angle, owner_of_facet[pair_facet])

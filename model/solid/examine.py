@@ -9,11 +9,11 @@ import numpy as np
 from ..document.nodes import Node
 from ..document.placement import Placement
 from ..document.primitives import OUTLINES
+from ..measuring.measure import Measures
 from .display import DisplayMesh
 from .entry import Bounds
 from .evaluate import Evaluator
 from .maps import moved
-from .measure import Measures
 from .places import Place, places_of
 from .results import display_of, measures_of, result_of
 from .unbounded import box_within, coarse

@@ -2,18 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..document.document import Document
-from .measure import Measures
+from ..document.nodes import Node
+from ..document.placement import Placement
+from ..document.primitives import OUTLINES
+from ..document.tree import walk
+from ..measuring.measure import Measures
+from .evaluate import Evaluator
+from .maps import moved
+from .places import places_of
 from .results import SolidResult, evaluate_document, measures_of
 
 
 def information(
-    document: Document, tolerance: float, progress: Callable[[str], None] | None = None
+    document: Document,
+    tolerance: float,
+    progress: Callable[[str], None] | None = None,
+    nodes: bool = False,
+    walls: bool = False,
 ) -> tuple[dict[str, Any], bool]:
-    """The measurements as plain JSON values, and whether every visible solid is in order."""
+    """The measurements as plain JSON values, and whether every visible solid is in order.
+
+    `nodes` adds those of every node by itself, as it stands in the world; of several copies the first one's.
+    `walls` adds an estimate of each solid's least wall (see measuring/thickness.py).
+    """
     evaluation = evaluate_document(document, tolerance, progress=progress)
     measured = [(result, result.measures()) for result in evaluation.solids]
     visible = [(result, measures) for result, measures in measured if result.root.visible]
@@ -29,11 +44,46 @@ def information(
         "profiles": [],
         "warnings": [{"node": message.name, "message": message.message} for message in evaluation.messages],
     }
+    if walls:
+        for row, result in zip(answer["solids"], evaluation.solids, strict=True):
+            row["thinnest_wall"] = _wall(result)
+    if nodes:
+        answer["nodes"] = _nodes([result.root for result in evaluation.solids], evaluation.evaluator, tolerance)
     return answer, bool(visible) and all(_in_order(result) for result, _ in visible)
 
 
 def _in_order(result: SolidResult) -> bool:
     return result.solid is not None and not result.solid.is_empty()
+
+
+def _wall(result: SolidResult) -> dict[str, Any] | None:
+    from ..measuring.thickness import RAYS, thinnest
+
+    found = None if result.solid is None else thinnest(result.solid)
+    if found is None:
+        return None
+    return {"length": found.length, "point": list(found.point), "exit": list(found.exit), "rays": RAYS}
+
+
+def _nodes(solids: Sequence[Node], evaluator: Evaluator, tolerance: float) -> list[dict[str, Any]]:
+    """In reading order. Outlines have no measures, nor has what failed or has no end."""
+    named = {node.id: node.label for node in walk(*solids)}
+    rows = []
+    for places in places_of(solids, named).values():
+        node, path = places[0].node, places[0].path
+        bare = node.with_(placement=Placement())
+        solid = None
+        if not isinstance(node, OUTLINES) and not evaluator.ends.endless(bare):
+            solid = evaluator.within(bare, tolerance, None).solid
+        row = _row(None if solid is None else measures_of(moved(solid, places[0].matrix).to_mesh64()))
+        rows.append(
+            {
+                "name": node.label,
+                "path": [part if isinstance(part, int) else named[part] for part in path],
+                **{key: row[key] for key in ("volume", "area", "bounds", "centroid")},
+            }
+        )
+    return rows
 
 
 def _row(measures: Measures | None) -> dict[str, Any]:
@@ -42,4 +92,6 @@ def _row(measures: Measures | None) -> dict[str, Any]:
     return {
         **dict.fromkeys(("volume", "area", "bounds", "centroid", "triangles", "components", "genus")),
         "closed": False,
+        "inertia": None,
+        "principal_moments": None,
     }

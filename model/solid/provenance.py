@@ -44,6 +44,11 @@ class Occurrence:
         return next((node.colour for node in reversed(self.nodes[1:]) if node.colour), None)
 
 
+def begins_faces(node: Node) -> bool:
+    """Whether faces of a result are told to be this node's: a leaf, or what makes a surface of its own."""
+    return not node.children or isinstance(node, Extrude | Revolve | Hull | Minkowski)
+
+
 def occurrences(root: Node) -> tuple[Occurrence, ...]:
     """Every leaf occurrence of a resolved tree, in reading order."""
     found: list[Occurrence] = []
@@ -51,7 +56,7 @@ def occurrences(root: Node) -> tuple[Occurrence, ...]:
     while stack:
         path, nodes, matrix = stack.pop()
         node = nodes[-1]
-        if not node.children or isinstance(node, Extrude | Revolve | Hull | Minkowski):
+        if begins_faces(node):
             found.append(Occurrence(path, nodes, matrix))
             continue
         try:

@@ -14,11 +14,11 @@ from ..document.errors import Refusal
 from ..document.nodes import Node
 from ..document.primitives import ImportedMesh
 from ..document.resolve import Resolver
+from ..measuring.measure import Measures, measure
 from ..worker.shown import Message
 from .display import DisplayMesh, display_mesh
 from .entry import Entry
 from .evaluate import Evaluator
-from .measure import Measures, measure
 from .provenance import occurrences, owners_of_runs
 from .tessellation import DEFAULT_TOLERANCE
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..document.document import Document
+from ..document.document import Document, Section
 from ..document.errors import Refusal
 from ..document.table import to_table
 from ..solid.tessellation import DEFAULT_TOLERANCE
@@ -23,8 +23,8 @@ from .shown import Message, Part, Pictures, Shown
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
+    from ..measuring.measure import Measures
     from ..solid.display import DisplayMesh
-    from ..solid.measure import Measures
 
 
 MOST_DEATHS = 3
@@ -46,6 +46,8 @@ class _Job:
     tries: int = 0
     tolerances: tuple[float, ...] = ()
     ids: tuple[str, ...] = ()
+    section: Section | None = None
+    supersedes: bool = True
 
 
 class Lane:
@@ -95,22 +97,31 @@ class Lane:
                 self._started = True
                 self._thread.start()
 
-    def evaluate(self, document: Document, tolerance: float = DEFAULT_TOLERANCE) -> int:
-        """Ask for a document's pictures and measures; the result is the number that the answer will carry."""
+    def evaluate(self, document: Document, tolerance: float = DEFAULT_TOLERANCE, supersedes: bool = True) -> int:
+        """Ask for a document's pictures and measures; the result is the number that the answer will carry.
+
+        What is being evaluated is given up for it, unless neither of both `supersedes`: then it waits, and of those
+        that wait the newest is taken.
+        """
         with self._lock:
             self._number += 1
-            self._evaluation = _Job(self._number, "evaluate", document, tolerance)
+            self._evaluation = _Job(self._number, "evaluate", document, tolerance, supersedes=supersedes)
             number = self._number
         self._wake()
         return number
 
     def export(
-        self, document: Document, path: Path | str, tolerance: float = DEFAULT_TOLERANCE, solid: str | None = None
+        self,
+        document: Document,
+        path: Path | str,
+        tolerance: float = DEFAULT_TOLERANCE,
+        solid: str | None = None,
+        section: Section | None = None,
     ) -> int:
-        """Ask for a mesh file of all visible solids, or of the one with this name."""
+        """Ask for a mesh file of all visible solids, or of the one with this name; of a section for its outlines."""
         with self._lock:
             self._number += 1
-            self._exports.append(_Job(self._number, "export", document, tolerance, str(path), solid))
+            self._exports.append(_Job(self._number, "export", document, tolerance, str(path), solid, section=section))
             number = self._number
         self._wake()
         return number
@@ -234,7 +245,7 @@ class Lane:
         elif job.word == "prepare":
             request = ("prepare", job.number, table, job.tolerances, job.solid)
         else:
-            request = ("export", job.number, table, job.path, job.tolerance, job.solid)
+            request = ("export", job.number, table, job.path, job.tolerance, job.solid, job.section)
         assert self._process is not None and self._process.connection is not None
         with contextlib.suppress(OSError):  # a worker that is gone is noticed when its answer is read
             self._process.connection.send(request)
@@ -258,7 +269,7 @@ class Lane:
                         return None
                     if self._cancelled:
                         return self._after_cancel(job)
-                    if self._evaluation is not None and job.word != "export" and not superseding:
+                    if not superseding and self._given_up(job):
                         superseding = True
                         with contextlib.suppress(OSError):
                             connection.send(("stop", 0))
@@ -272,6 +283,11 @@ class Lane:
                 if self._handled(message, job):
                     return None
         return None
+
+    def _given_up(self, job: _Job) -> bool:
+        """Whether a newer evaluation takes the place of what is at work."""
+        newer = self._evaluation
+        return newer is not None and job.word != "export" and (newer.supersedes or job.supersedes)
 
     def _wait_for_a_request(self) -> None:
         """A worker that cannot even start is not started again before somebody asks for something."""

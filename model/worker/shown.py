@@ -10,8 +10,8 @@ from typing import Any
 from ..document.document import Document
 from ..document.nodes import Node
 from ..document.resolve import Resolver
+from ..measuring.measure import Measures
 from ..solid.display import DisplayMesh
-from ..solid.measure import Measures
 from ..solid.provenance import occurrences
 
 

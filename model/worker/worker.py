@@ -11,6 +11,7 @@ from multiprocessing.connection import Connection
 from pathlib import Path
 from typing import Any
 
+from ..document.document import Section
 from ..document.errors import Refusal
 from ..document.nodes import Difference, Node
 from ..document.resolve import Resolver
@@ -115,12 +116,18 @@ class _Worker:
         return "prepared", number
 
     def _export(
-        self, number: int, table: dict[str, Any], path: str, tolerance: float, solid: str | None
-    ) -> tuple[Any, ...]:
-        from ..exchange.export import export_document
-
+        self, number: int, table: dict[str, Any], path: str, tolerance: float, solid: str | None,
+        section: Section | None = None,
+    ) -> tuple[Any, ...]:  # fmt: skip
         progress = _Progress(self._connection, number, len(table["nodes"]))
-        export_document(from_table(table), Path(path), tolerance, solid, progress)
+        if section is None:
+            from ..exchange.export import export_document
+
+            export_document(from_table(table), Path(path), tolerance, solid, progress)
+        else:
+            from ..section.solid_sections import export_section
+
+            export_section(from_table(table), section, Path(path), tolerance, solid, progress)
         return "exported", number, path
 
 

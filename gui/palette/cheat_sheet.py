@@ -1,0 +1,96 @@
+"""A sheet of all keys and of what the mouse does, as they are now."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QKeySequence
+from PySide6.QtWidgets import QDialog, QFrame, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
+
+from ..commands.actions import MENUS, Actions
+
+COLUMNS = 3
+MOUSE = (
+    ("Drag", "Orbit"),
+    ("Shift+drag, right drag", "Pan"),
+    ("Wheel", "Zoom to the pointer"),
+    ("Click", "Select the leaf that made the face"),
+    ("Click again", "Its parent, and so on up"),
+    ("Alt+click", "The whole solid"),
+    ("Alt+Shift+click", "What lies behind"),
+    ("Ctrl+click", "Add to the selection"),
+    ("Right click", "Menu of what lies there"),
+    ("Double click", "Fit what was clicked"),
+    ("Click on the cube", "Look from there"),
+    ("Arrow keys", "Turn the picture"),
+    ("Space", "Tools at the pointer"),
+    ("Escape", "Take back, or select nothing"),
+)
+FIELDS = (
+    ("↑ ↓, wheel", "One step"),
+    ("Shift, Ctrl with it", "Finer, coarser"),
+    ("Drag the label", "Slide the value"),
+    ("Escape", "Take back what was typed"),
+)
+
+
+class CheatSheet(QDialog):
+    """Made when it is opened, so that it shows the user's own shortcuts."""
+
+    def __init__(self, actions: Actions, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setObjectName("cheat_sheet")
+        self.setWindowTitle("Keys and mouse")
+        self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+        blocks = [("In the picture", MOUSE), ("In number fields and sliders", FIELDS)]
+        for menu in MENUS:
+            rows = []
+            for command in actions.commands():
+                keys = [QKeySequence(one) for one in actions.keys(command.name).split("; ") if one]
+                if keys and command.menu.split("/")[0] == menu:
+                    words = ", ".join(key.toString(QKeySequence.SequenceFormat.NativeText) for key in keys)
+                    rows.append((words, command.title))
+            if rows:
+                blocks.append((menu, tuple(rows)))
+        body = QWidget(self)
+        columns = QHBoxLayout(body)
+        columns.setContentsMargins(20, 16, 20, 16)
+        columns.setSpacing(28)
+        heights = [0] * COLUMNS
+        layouts = [QVBoxLayout() for _ in range(COLUMNS)]
+        for layout in layouts:
+            layout.setSpacing(14)
+            columns.addLayout(layout, 1)
+        for title, rows in blocks:
+            shortest = heights.index(min(heights))
+            heights[shortest] += len(rows) + 2
+            layouts[shortest].addWidget(_block(title, rows, body))
+        for layout in layouts:
+            layout.addStretch(1)
+        area = QScrollArea(self)
+        area.setWidget(body)
+        area.setWidgetResizable(True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setProperty("plain", True)
+        outer = QVBoxLayout(self)
+        outer.setContentsMargins(0, 0, 0, 0)
+        outer.addWidget(area)
+        screen = parent.screen().availableSize()
+        self.resize(min(1020, screen.width() - 40), min(body.sizeHint().height() + 4, screen.height() - 80))
+
+
+def _block(title: str, rows: tuple[tuple[str, str], ...], parent: QWidget) -> QWidget:
+    block = QWidget(parent)
+    grid = QGridLayout(block)
+    grid.setContentsMargins(0, 0, 0, 0)
+    grid.setHorizontalSpacing(10)
+    grid.setVerticalSpacing(4)
+    heading = QLabel(title, block)
+    heading.setProperty("heading", True)
+    grid.addWidget(heading, 0, 0, 1, 2)
+    for row, (keys, words) in enumerate(rows, 1):
+        key = QLabel(keys, block)
+        key.setProperty("key", True)
+        grid.addWidget(key, row, 0, Qt.AlignmentFlag.AlignLeft)
+        grid.addWidget(QLabel(words, block), row, 1)
+    grid.setColumnStretch(1, 1)
+    return block

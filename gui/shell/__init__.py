@@ -1,0 +1,1 @@
+"""Parts of the command line with options of their own. Imports no Qt."""

@@ -1,0 +1,218 @@
+"""`solidtree render`: a picture of a document."""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+from typing import TYPE_CHECKING
+
+from ...model.document.colours import hex_colour, rgb
+from ...model.document.document import Section
+from ...model.document.errors import Refusal
+from ...model.operations.sections import MOST_ACTIVE
+from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, positive
+from .parameters import add_options as add_parameter_options
+from .parameters import read_with_values
+
+if TYPE_CHECKING:
+    from ...model.document.nodes import Node
+    from ...render.camera import Camera
+    from ...render.look import Paint
+
+VIEWS = ("iso", "front", "back", "left", "right", "top", "bottom")
+
+
+def add_options(command: argparse.ArgumentParser) -> None:
+    """The options of `render`."""
+    command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
+    command.add_argument("out", metavar="OUT.png")
+    command.add_argument("--size", type=_size, default=(1200, 800), metavar="WxH", help="in pixels, default 1200x800")
+    add_view_options(command)
+    command.add_argument("--hidden-surface", choices=("zbuffer",), default="zbuffer")
+    command.add_argument("--style", choices=("shaded", "edges", "wireframe", "hidden-line"), default="shaded")
+    command.add_argument("--shading", choices=("flat", "gouraud", "phong"), default="phong")
+    command.add_argument("--opacity", type=_share, default=1.0, metavar="A", help="from 0 to 1")
+    command.add_argument(
+        "--colours",
+        choices=("own", "nodes"),
+        default="own",
+        help="the nodes' own colours, or one for each node on the faces that it made",
+    )
+    command.add_argument("--background", metavar="COLOUR", help="#rrggbb, a name, or transparent")
+    command.add_argument(
+        "--section",
+        type=_section,
+        action="append",
+        default=[],
+        metavar="x,y,z:nx,ny,nz",
+        help="open the solids by the plane through a point: what its direction points to stays; may come repeatedly",
+    )
+    command.add_argument("--sections", action="store_true", help="open the solids by the document's own sections")
+    command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
+    add_parameter_options(command)
+    command.add_argument(
+        "--ids",
+        nargs="?",
+        const="solids",
+        choices=("solids", "faces"),
+        help="no light, no smoothing: each solid, or each face, in the 24-bit colour of its number, from 1",
+    )
+
+
+def add_view_options(command: argparse.ArgumentParser) -> None:
+    """From where, and how projected."""
+    command.add_argument("--view", choices=VIEWS, default=None, help="default iso")
+    for name, what in (
+        ("eye", "where the eye is"),
+        ("target", "what it looks at"),
+        ("up", "what is up in the picture"),
+    ):
+        command.add_argument(f"--{name}", type=_point, metavar="x,y,z", help=what)
+    projection = command.add_mutually_exclusive_group()
+    projection.add_argument("--parallel", action="store_true", help="parallel projection")
+    projection.add_argument("--perspective", type=_angle, metavar="ANGLE", help="full vertical angle, default 30")
+
+
+def _size(text: str) -> tuple[int, int]:
+    found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
+    size = (int(found[1]), int(found[2])) if found else (0, 0)
+    if not all(1 <= side <= 16384 for side in size):
+        raise argparse.ArgumentTypeError(f"{text!r} is no size such as 1200x800, at most 16384 a side")
+    return size
+
+
+def _point(text: str) -> tuple[float, float, float]:
+    try:
+        x, y, z = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no point such as 10,-20,5") from None
+    if not all(abs(value) < float("inf") for value in (x, y, z)):
+        raise argparse.ArgumentTypeError(f"{text!r} is no point such as 10,-20,5")
+    return x, y, z
+
+
+def _section(text: str) -> Section:
+    point, colon, normal = text.partition(":")
+    try:
+        return Section("--section", _point(point), _point(normal if colon else ""))
+    except (argparse.ArgumentTypeError, Refusal):
+        message = f"{text!r} is no point with a direction such as 0,0,5:0,0,-1"
+        raise argparse.ArgumentTypeError(message) from None
+
+
+def _share(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = -1.0
+    if not 0 <= value <= 1:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number from 0 to 1")
+    return value
+
+
+def _angle(text: str) -> float:
+    value = positive(text)
+    if value >= 180:
+        raise argparse.ArgumentTypeError(f"{text!r} is not an angle below 180")
+    return value
+
+
+def render(options: argparse.Namespace) -> int:
+    """Evaluate and draw; the status is 1 where something failed or nothing is to be seen."""
+    if not options.out.lower().endswith(".png"):
+        raise SystemExit(_refused(options.out, "a picture is written as PNG: let the name end in .png"))
+    background = options.background
+    if background is not None and background != "transparent":
+        background = tuple(value / 255 for value in rgb(hex_colour(background)))
+    document = read_with_values(options)
+    sections = [*options.section, *(s for s in document.sections if options.sections and s.active)]
+    if sections and options.ids is not None:
+        raise Refusal("--ids numbers whole solids: leave the sections out")
+    if len(sections) > MOST_ACTIVE:
+        raise Refusal(f"at most {MOST_ACTIVE} sections open a picture at once, not {len(sections)}")
+    bar = Bar(document)
+    try:
+        from ...model.solid.results import evaluate_document
+
+        evaluation = evaluate_document(document, options.tolerance, progress=bar)
+    finally:
+        bar.end()
+    for message in evaluation.messages:
+        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
+    shown = [(result, mesh) for result in evaluation.visible if (mesh := evaluation.display(result)) is not None]
+    meshes = [mesh for _, mesh in shown]
+
+    from ...render import picture
+
+    view, perspective = _camera(options, meshes)
+    if options.ids is not None:
+        numbers = picture.facet_numbers(meshes) if options.ids == "faces" else None
+        pixels = picture.ids_picture(meshes, options.size, view, numbers=numbers, perspective=perspective)
+    else:
+        pixels = picture.picture(
+            [(mesh, _paint(result.root, options.colours == "nodes")) for result, mesh in shown],
+            options.size,
+            view,
+            style=options.style,
+            shading=options.shading,
+            opacity=options.opacity,
+            background=background,
+            perspective=perspective,
+            sections=sections,
+        )
+    try:
+        picture.write_png(options.out, pixels)
+    except OSError as error:
+        from ...model.project.disk import reason_of
+
+        raise SystemExit(_refused(options.out, reason_of(error))) from None
+    fine = len(shown) == len(evaluation.visible) and any(len(mesh.triangles) for mesh in meshes)
+    return DONE if fine else NOT_IN_ORDER
+
+
+def _paint(root: Node, by_node: bool) -> Paint:
+    from ...model.document.distinct_colours import distinct_colour
+    from ...model.solid.provenance import occurrences
+    from ...render.look import Paint
+
+    found = occurrences(root)
+    if by_node:
+        return Paint(None, tuple(distinct_colour(occurrence.leaf.id) for occurrence in found))
+    return Paint(root.colour, tuple(occurrence.colour for occurrence in found))
+
+
+def _refused(file: str, reason: str) -> int:
+    from ..command_line import REFUSED
+
+    print(f"solidtree: {file}: {reason}", file=sys.stderr)
+    return REFUSED
+
+
+def _camera(options: argparse.Namespace, meshes: list) -> tuple[Camera | str, float | None]:
+    """A camera where the eye is given, else a view's name; and the angle, None for parallel projection."""
+    perspective = None if options.parallel else options.perspective or 30.0
+    if options.eye is None:
+        if options.target is not None or options.up is not None:
+            raise Refusal("--target and --up need --eye")
+        return options.view or "iso", perspective
+    if options.view is not None:
+        raise Refusal("--view and --eye exclude each other")
+    import numpy as np
+
+    from ...render.views import camera_of
+
+    bounds = [mesh.bounds for mesh in meshes if len(mesh.triangles)]
+    box = np.array([np.min([b[0] for b in bounds], axis=0), np.max([b[1] for b in bounds], axis=0)]) if bounds else None
+    try:
+        camera = camera_of(
+            box,
+            options.size[0] / options.size[1],
+            eye=options.eye,
+            target=options.target,
+            up=options.up,
+            perspective=perspective,
+        )
+    except ValueError as error:
+        raise Refusal(str(error)) from None
+    return camera, perspective

@@ -1,0 +1,89 @@
+"""The signals between the parts of the window: who hears of what."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from .commands.parameters import ask_export, ask_import
+from .view.pointer_menu import open_pointer_menu
+
+if TYPE_CHECKING:
+    from .window import MainWindow
+
+
+def connect(window: MainWindow) -> None:
+    """Connect the parts of a window, once, when all of them are there."""
+    _words(window)
+    _evaluation(window)
+    _measuring(window)
+    window.parameters.sets.import_asked.connect(lambda: ask_import(window))
+    window.parameters.sets.export_asked.connect(lambda: ask_export(window))
+    window.files.path_changed.connect(window.follow_title)
+    window.files.path_changed.connect(window.follow_recent)
+    window.files.opened.connect(window.opened)
+    window.section_tool.chosen.connect(window.actions_.refresh)
+    window.viewport.menu_asked.connect(
+        lambda under, place: open_pointer_menu(window.viewport, window.session, window.actions_, under, place)
+    )
+    window.problems.counted.connect(window.count_problems)
+    window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
+    window.theme.changed.connect(lambda name: window.viewport.change(lambda viewer: viewer.set_theme(name)))
+    window.theme.changed.connect(window.retint)
+    window.welcome.open_asked.connect(window.files.open)
+
+
+def _words(window: MainWindow) -> None:
+    """What the status bar says: refusals, hints, what is under the pointer."""
+    status = window.status
+    for part in (
+        window.tree,
+        window.diagram,
+        window.properties,
+        window.parameters,
+        window.sections,
+        window.section_tool,
+        window.actions_,
+        window.handles,
+        window.place_on_face,
+    ):
+        part.refused.connect(status.say)
+    for said in (
+        window.handles.hint,
+        window.evaluation.notice,
+        window.files.notice,
+        window.figure_use.said,
+        window.measure.said,
+    ):
+        said.connect(status.say)
+    window.place_on_face.said.connect(status.set_hint)
+    window.section_tool.said.connect(status.set_hover)
+    window.viewport.hovered.connect(status.set_hover)
+    window.files.background.busy.connect(lambda words: status.say(words + " …" if words else ""))
+
+
+def _evaluation(window: MainWindow) -> None:
+    evaluation, status = window.evaluation, window.status
+    evaluation.shown.connect(window.shown)
+    evaluation.shown.connect(window.sections.measure)
+    evaluation.examined.connect(window.examined)
+    evaluation.examined.connect(window.measure_selection)
+    evaluation.busy.connect(window.busy)
+    evaluation.outdated.connect(status.set_outdated)
+    evaluation.progress.connect(status.set_progress)
+    status.cancel_asked.connect(evaluation.cancel)
+    status.problems_asked.connect(window.show_problems)
+
+
+def _measuring(window: MainWindow) -> None:
+    tool, panel = window.measure, window.measurements
+
+    def follow() -> None:
+        panel.set_taken(tool.taken, tool.current)
+        window.actions_.refresh()
+
+    tool.changed.connect(follow)
+    tool.ended.connect(window.actions_.refresh)
+    panel.chosen.connect(tool.choose)
+    panel.removed.connect(tool.remove)
+    panel.cleared.connect(tool.clear)
+    panel.start_asked.connect(lambda: window.actions_.run("measure"))

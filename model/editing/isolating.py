@@ -1,0 +1,42 @@
+"""Showing some nodes alone: a view of the document, which itself stays as it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.nodes import Node
+from ..document.placement import Placement
+from ..document.tree import outermost, trail, walk
+from ..operations.fitting import steps_above, then
+
+
+def isolation_fault(document: Document, ids: Sequence[str]) -> str | None:
+    """Why these nodes cannot be shown alone, or None."""
+    inside = {node.id for node in walk(*document.definitions)}
+    for node_id in ids:
+        if node_id in inside:
+            return "a definition has no place of its own: isolate one of its instances"
+    return None
+
+
+def isolated(document: Document, ids: Sequence[str]) -> Document:
+    """The document with these nodes as its only solids, each at its place in space (under an array: the first copy).
+
+    A whole solid stays the very node that it is, unless it is hidden. Raises Refusal.
+    """
+    fault = isolation_fault(document, ids)
+    if fault:
+        raise Refusal(fault)
+    solids: list[Node] = []
+    for node_id in outermost(document, ids):
+        *way, node = trail(document, node_id)
+        colour = node.colour or next((above.colour for above in reversed(way) if above.colour), None)
+        if way:
+            placement = then(Placement(), [*node.placement.steps, *steps_above(way)])
+            node = node.with_(placement=placement, colour=colour, name=node.label, visible=True)
+        elif not node.visible:
+            node = node.with_(visible=True)
+        solids.append(node)
+    return document.with_(solids=tuple(solids))

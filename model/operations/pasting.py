@@ -1,0 +1,99 @@
+"""Nodes on their way through a clipboard: a small document of them, and how it comes into another document."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..document.document import Document, Parameter
+from ..document.errors import Refusal
+from ..document.expression import Expression, expressions_in
+from ..document.nodes import Instance, Node
+from ..document.placement import Placement
+from ..document.tree import change_each, next_number, numbered, outermost, put, trail, walk
+from .fitting import check_fit, named_apart, steps_above, then
+from .linking import check_definitions, used_definitions
+from .parameters import declaring
+
+
+def clip(document: Document, ids: Sequence[str]) -> Document:
+    """The nodes as solids at their places in space, with the definitions and parameters that they need.
+
+    Of a definition it is an instance.
+    """
+    roots = {root.id: root for root in document.definitions}
+    nodes: list[Node] = []
+    for node_id in outermost(document, ids):
+        *way, node = trail(document, node_id)
+        if node_id in roots:
+            node = Instance(definition=node_id, name=node.label)
+        elif not (way and way[0].id in roots):  # a definition has no one place in space
+            node = node.with_(placement=Placement((*node.placement.steps, *steps_above(way))))
+        nodes.append(node)
+    needed = used_definitions(*nodes)
+    stack = list(needed)
+    while stack:
+        one = roots.get(stack.pop())
+        new = (used_definitions(one) if one is not None else set()) - needed
+        needed |= new
+        stack += new
+    definitions = tuple(root for root in document.definitions if root.id in needed)
+    # An instance of a node that is copied too would give its id away twice.
+    solids = numbered(nodes, next_number(document))
+    return Document(solids=solids, definitions=definitions, parameters=_used_parameters(document, solids + definitions))
+
+
+def _used_parameters(document: Document, roots: tuple[Node, ...]) -> tuple[Parameter, ...]:
+    by_name = {parameter.name: parameter for parameter in document.parameters}
+    names = {name for node in walk(*roots) for expression in node.expressions() for name in expression.names()}
+    stack = list(names)
+    while stack:
+        parameter = by_name.get(stack.pop())
+        if parameter is not None and isinstance(parameter.value, Expression):
+            new = parameter.value.names() - names
+            names |= new
+            stack += new
+    return tuple(parameter for parameter in document.parameters if parameter.name in names)
+
+
+def paste(document: Document, other: Document, parent_id: str | None = None, index: int | None = None) -> Document:
+    """Put the solids of another document into this one, as operands of `parent_id` at `index` (None: last).
+
+    They keep their place in space. Definitions that this document has already are shared; parameters of the same
+    name keep the value that they have here.
+    """
+    if not isinstance(other, Document):
+        raise Refusal(f"a document is needed, not {other!r:.60}")
+    known = {parameter.name for parameter in document.parameters}
+    document = document.with_(parameters=(*document.parameters, *(p for p in other.parameters if p.name not in known)))
+    declaring(document, [list(expressions_in([p.value])) for p in other.parameters])
+    declaring(document, [node.expressions() for node in walk(*other.roots)])
+    here = {root.id: root for root in document.definitions}
+    coming = [root for root in other.definitions if here.get(root.id) != root]
+    roots = numbered((*coming, *other.solids), next_number(document))
+    renamed = {root.id: root.id for root in other.definitions}
+    renamed |= {old.id: new.id for old, new in zip(coming, roots, strict=False)}
+    # One whose definition is missing must not come upon a node of this document by chance.
+    carrier = Document(definitions=roots)
+    instances = [node.id for node in walk(*roots) if isinstance(node, Instance)]
+    carrier = change_each(carrier, instances, lambda node: node.with_(
+        definition=renamed.get(node.definition, "")))  # type: ignore[attr-defined]  # fmt: skip
+    new, solids = carrier.definitions[: len(coming)], list(carrier.definitions[len(coming) :])
+    document = document.with_(definitions=(*document.definitions, *new))
+    way = () if parent_id is None else trail(document, parent_id)
+    for node in solids:
+        check_fit(way[-1] if way else None, node)
+    check_definitions(document, solids, parent_id)
+    if not way:
+        solids = named_apart(document, solids)
+    elif way[0].id not in here:
+        solids = [_carried_into(node, way) for node in solids]
+    return put(document, solids, parent_id, index)
+
+
+def _carried_into(node: Node, way: Sequence[Node]) -> Node:
+    """The node, placed in the world, with the placement that it needs below `way`; what cancels out is left out."""
+    steps, above = list(node.placement.steps), steps_above(way)
+    while steps and above and steps[-1] == above[-1]:
+        del steps[-1], above[-1]
+    back = [undo for step in reversed(above) for undo in step.inverse()]
+    return node.with_(placement=then(Placement(), [*steps, *back]))

@@ -1,0 +1,147 @@
+"""Operations that put nodes, or copies of them, elsewhere in the tree. Nothing moves in space."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.nodes import Instance, Node
+from ..document.tree import (
+    change,
+    change_each,
+    find,
+    index_of,
+    listed,
+    next_number,
+    numbered,
+    outermost,
+    parent,
+    position,
+    put,
+    trail,
+    unique_name,
+)
+from .fitting import carried, check_fit, check_free, named_apart, solid_name
+from .linking import check_definitions
+
+
+def relocate(document: Document, ids: Sequence[str], parent_id: str | None, index: int | None = None) -> Document:
+    """Move nodes to another place in the tree, before the sibling now at `index` (None: last).
+
+    They keep their place in space.
+    """
+    ids = outermost(document, ids)
+    way = () if parent_id is None else trail(document, parent_id)
+    if any(node.id in ids for node in way):
+        raise Refusal("a node cannot be moved into itself")
+    check_free(document, ids)
+    above = way[-1] if way else None
+    nodes = [carried(document, node_id, way) for node_id in ids]
+    for node in nodes:
+        check_fit(above, node)
+    check_definitions(document, nodes, parent_id, known=False)
+    family = document.solids if above is None else above.children
+    place = position(family, index)
+    place -= sum(member.id in ids for member in family[:place])
+    stay = [member for member in family if member.id not in ids]
+    order = [*stay[:place], *nodes, *stay[place:]]
+    if len(order) == len(family) and all(a is b for a, b in zip(order, family, strict=True)):
+        return document
+    document = change_each(document, ids, lambda node: None)
+    return put(document, named_apart(document, nodes) if above is None else nodes, parent_id, place)
+
+
+def copy_to(document: Document, ids: Sequence[str], parent_id: str | None, index: int | None = None) -> Document:
+    """Put copies of nodes at another place in the tree, before the operand now at `index` (None: last).
+
+    The copies stand in space where the originals stand. Of a definition it is an instance that comes.
+    """
+    ids = outermost(document, ids)
+    way = () if parent_id is None else trail(document, parent_id)
+    above = way[-1] if way else None
+    roots = {root.id for root in document.definitions}
+    nodes = [Instance(definition=i) if i in roots else carried(document, i, way) for i in ids]
+    for node in nodes:
+        check_fit(above, node)
+    check_definitions(document, nodes, parent_id, known=False)
+    copies = numbered(nodes, next_number(document))
+    if above is None:
+        labels = [find(document, i).label for i in ids]
+        copies = named_apart(document, [c.with_(name=label) for c, label in zip(copies, labels, strict=True)])
+    return put(document, copies, parent_id, index)
+
+
+def reorder(document: Document, ids: Sequence[str], by: int) -> Document:
+    """Move nodes among their siblings by some places, towards the last where `by` is above 0; at an end they stay."""
+    if isinstance(by, bool) or not isinstance(by, int):
+        raise Refusal(f"places are whole numbers, not {by!r:.60}")
+    wanted = listed(ids)
+    check_free(document, wanted)
+    chosen = set(wanted)
+    above = [parent(document, node_id) for node_id in wanted]
+    if None in above:
+        solids = _shifted(document.solids, chosen, by)
+        document = document if solids is document.solids else document.with_(solids=solids)
+
+    def shifted(node: Node) -> Node:
+        children = _shifted(node.children, chosen, by)
+        return node if children is node.children else node.with_(children=children)
+
+    return change_each(document, [node.id for node in above if node is not None], shifted)
+
+
+def _shifted(family: tuple[Node, ...], chosen: set[str], by: int) -> tuple[Node, ...]:
+    order = list(family) if by < 0 else list(reversed(family))
+    for _ in range(min(abs(by), len(order))):
+        for place in range(1, len(order)):
+            if order[place].id in chosen and order[place - 1].id not in chosen:
+                order[place - 1 : place + 1] = order[place], order[place - 1]
+    if by > 0:
+        order.reverse()
+    return family if all(a is b for a, b in zip(order, family, strict=True)) else tuple(order)
+
+
+def promote(document: Document, node_id: str) -> Document:
+    """Make a node the first operand of its operation: the base of a difference."""
+    above = parent(document, node_id)
+    if above is None:
+        raise Refusal(f"“{find(document, node_id).label}” is no operand")
+    rest = tuple(child for child in above.children if child.id != node_id)
+    first = next(child for child in above.children if child.id == node_id)
+    if first is above.children[0]:
+        return document
+    return change(document, above.id, lambda node: node.with_(children=(first, *rest)))
+
+
+def swap(document: Document, one_id: str, other_id: str) -> Document:
+    """Let two nodes change places in the tree. They keep their places in space."""
+    pair = [one_id, other_id]
+    if len(outermost(document, pair)) < 2:
+        raise Refusal("two nodes change places, and neither may stand in the other")
+    check_free(document, pair)
+    ways = [trail(document, node_id)[:-1] for node_id in pair]
+    new: dict[str, Node] = {}
+    for node_id, way, stranger in zip(reversed(pair), ways, pair, strict=True):
+        node = carried(document, node_id, way)
+        check_fit(way[-1] if way else None, node)
+        check_definitions(document, [node], way[-1].id if way else None, known=False)
+        if not way:
+            taken = {root.name for root in document.solids if root.id not in pair}
+            node = node.with_(name=unique_name(node.label, taken))
+        new[stranger] = node
+    return change_each(document, pair, lambda node: new[node.id])
+
+
+def duplicate(document: Document, ids: Sequence[str]) -> Document:
+    """Copy nodes, each beside its original."""
+    for node_id in outermost(document, ids):
+        node, above, place = find(document, node_id), parent(document, node_id), index_of(document, node_id) + 1
+        if any(root is node for root in document.definitions):
+            raise Refusal(f"“{node.label}” is a definition; duplicate one of its instances")
+        check_fit(above, node)
+        (copy,) = numbered([node], next_number(document))
+        if above is None:
+            copy = copy.with_(name=solid_name(document, node.label))
+        document = put(document, (copy,), None if above is None else above.id, place)
+    return document

@@ -1,0 +1,201 @@
+"""Operations on the tree: what stands where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from ..document.document import Document
+from ..document.errors import Refusal
+from ..document.nodes import (
+    KINDS,
+    Broken,
+    Difference,
+    Hull,
+    Instance,
+    Intersection,
+    LinearArray,
+    Minkowski,
+    Mirror,
+    Node,
+    PolarArray,
+    Union,
+    field_specs,
+)
+from ..document.primitives import OUTLINES, Extrude, Revolve
+from ..document.tree import (
+    change,
+    change_each,
+    find,
+    index_of,
+    listed,
+    next_number,
+    numbered,
+    outermost,
+    parent,
+    put,
+    trail,
+    unique_name,
+    walk,
+)
+from ..editing.echo import function_name
+from .fitting import carried, check_fit, check_free, solid_name, steps_of, then
+from .linking import check_definitions
+from .parameters import declaring
+
+OF_SOLIDS: tuple[type[Node], ...] = (
+    Union, Difference, Intersection, Hull, Minkowski, LinearArray, PolarArray, Mirror,
+)  # fmt: skip
+"""The operations that take solids."""
+
+
+def insert(document: Document, node: Node, parent_id: str | None = None, index: int | None = None) -> Document:
+    """Add a solid, or an operand of `parent_id` at `index` (None: last), and the parameters declared in it."""
+    document, fresh = _coming(document, node, parent_id)
+    above = None if parent_id is None else find(document, parent_id)
+    if above is None:
+        fresh = fresh.with_(name=solid_name(document, fresh.label))
+    after = put(document, (fresh,), parent_id, index)
+    check_fit(above, fresh)
+    return after
+
+
+def replace(document: Document, node_id: str, node: Node) -> Document:
+    """Put a new node in the place of another one, which goes; an unnamed one takes over the name."""
+    old, above = find(document, node_id), parent(document, node_id)
+    check_free(document, [node_id])
+    document, fresh = _coming(document, node, None if above is None else above.id)
+    check_fit(above, fresh)
+    name = fresh.name or old.name
+    if above is None:
+        name = unique_name(name, [root.name for root in document.solids if root.id != node_id])
+    return change(document, node_id, lambda old: fresh.with_(name=name))
+
+
+def _coming(document: Document, node: Node, parent_id: str | None) -> tuple[Document, Node]:
+    """The node with ids of this document, and the document with the parameters that it declares. Raises Refusal."""
+    if not isinstance(node, Node):
+        raise Refusal(f"a solid is needed, not {node!r:.60}")
+    (fresh,) = numbered([node], next_number(document))
+    for part in walk(fresh):
+        if isinstance(part, Broken) or (isinstance(part, Instance) and part.children):
+            raise Refusal(f"“{part.label}” stands in resolved trees only, not in a document")
+        for child in part.children:
+            check_fit(part, child)
+    check_definitions(document, [fresh], parent_id)
+    return declaring(document, [part.expressions() for part in walk(fresh)]), fresh
+
+
+def delete(document: Document, ids: Sequence[str]) -> Document:
+    """Take nodes out of the document."""
+    ids = outermost(document, ids)
+    after = change_each(document, ids, lambda node: None)
+    gone = {root.id for root in document.definitions} - {root.id for root in after.definitions}
+    for node in walk(*after.roots) if gone else ():
+        if isinstance(node, Instance) and node.definition in gone:
+            label = find(document, node.definition).label
+            raise Refusal(f"“{label}” is still used by “{node.label}”; delete or unlink that first")
+    return after
+
+
+def combine(document: Document, kind: str, ids: Sequence[str], name: str = "") -> Document:
+    """Put nodes under a new operation, which takes the place of the first; `kind` as in scripts, such as `union`.
+
+    The nodes keep their place in space.
+    """
+    wanted = _kind(kind)
+    if wanted not in OF_SOLIDS:
+        raise Refusal(f"a {wanted.title.lower()} does not join solids")
+    ids = outermost(document, ids)
+    if not ids:
+        raise Refusal(f"select what the {wanted.title.lower()} should take")
+    for node_id in ids:
+        if isinstance(find(document, node_id), OUTLINES):
+            raise Refusal(f"an outline is flat; a {wanted.title.lower()} takes solids")
+    check_free(document, ids)
+    first = trail(document, ids[0])
+    above = first[-2] if len(first) > 1 else None
+    nodes = [carried(document, node_id, first[:-1]) for node_id in ids]
+    check_definitions(document, nodes, ids[0], known=False)
+    number = next_number(document)
+    most = wanted.operands[1]
+    if most is not None and len(nodes) > most:
+        nodes = [Union(id=f"n{number + 1}", children=tuple(nodes))]
+    new = wanted(id=f"n{number}", name=" ".join(str(name).split()), children=tuple(nodes))
+    if above is None:
+        new = new.with_(name=unique_name(new.label, [root.name for root in document.solids if root.id not in ids]))
+    return change_each(document, ids, lambda node: new if node.id == ids[0] else None)
+
+
+def dissolve(document: Document, ids: Sequence[str] | str) -> Document:
+    """Replace operations by their operands, which keep their place in space, and the colour that it gave them."""
+    wanted = listed(ids)
+    for node_id in sorted(wanted, key=lambda node_id: -len(trail(document, node_id))):  # inner ones first
+        document = _dissolved(document, node_id)
+    return document
+
+
+def _dissolved(document: Document, node_id: str) -> Document:
+    node, above = find(document, node_id), parent(document, node_id)
+    if not node.children:
+        raise Refusal(f"“{node.label}” has no operands to set free")
+    check_free(document, [node_id])
+    for child in node.children:
+        check_fit(above, child)
+    most = None if above is None else type(above).operands[1]
+    if above is not None and most is not None and len(above.children) - 1 + len(node.children) > most:
+        raise Refusal(f"“{above.label}” takes only {most} operand{'' if most == 1 else 's'}")
+    steps = steps_of(node)
+    freed = [
+        child.with_(
+            placement=then(child.placement, steps),
+            colour=child.colour or node.colour,
+            visible=child.visible and node.visible,
+        )
+        for child in node.children
+    ]
+    if above is None:
+        taken = {root.name for root in document.solids if root.id != node_id}
+        for i, child in enumerate(freed):
+            freed[i] = child.with_(name=unique_name(child.label, taken))
+            taken.add(freed[i].name)
+    family, place = (document.solids if above is None else above.children), index_of(document, node_id)
+    new = (*family[:place], *freed, *family[place + 1 :])
+    if above is None:
+        return document.with_(solids=new)
+    return change(document, above.id, lambda above: above.with_(children=new))
+
+
+def change_kind(document: Document, ids: Sequence[str] | str, kind: str) -> Document:
+    """Turn operations into others with the same operands, and the same values where both have a field."""
+    wanted = _kind(kind)
+    for node_id in listed(ids):
+        document = _changed_kind(document, node_id, wanted)
+    return document
+
+
+def _changed_kind(document: Document, node_id: str, wanted: type[Node]) -> Document:
+    node = find(document, node_id)
+    if type(node) is wanted:
+        return document
+    joining = isinstance(node, OF_SOLIDS) and wanted in OF_SOLIDS
+    if not joining and not (isinstance(node, Extrude | Revolve) and wanted in (Extrude, Revolve)):
+        raise Refusal(f"“{node.label}” cannot become a {wanted.title.lower()}")
+    fewest, most = wanted.operands
+    if len(node.children) < fewest:
+        raise Refusal(f"a {wanted.title.lower()} needs an operand")
+    if most is not None and len(node.children) > most:
+        raise Refusal(f"a {wanted.title.lower()} takes only {most} operand")
+    own = {spec.name: spec.type for spec in field_specs(type(node))}
+    shared = [spec.name for spec in field_specs(wanted) if own.get(spec.name) == spec.type]
+    kept = {n: getattr(node, n) for n in ("id", "colour", "visible", "note", "placement", "children", *shared)}
+    name = node.name
+    if name.rstrip("0123456789 ") == node.title:  # the name that it was given, not one that somebody chose
+        name = unique_name(wanted.title, [root.name for root in document.solids])
+    return change(document, node_id, lambda node: wanted(name=name, **kept))
+
+
+def _kind(word: str | type[Node]) -> type[Node]:
+    for kind in KINDS.values():
+        if kind is not Broken and word in (kind, kind.__name__, function_name(kind)):
+            return kind
+    raise Refusal(f"there is no operation called {word!r:.60}")

@@ -1,0 +1,1 @@
+"""Operands that a result does not show, drawn faintly through it. VTK, no Qt."""
