@@ -14,7 +14,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, QPointF, QSettings, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QObject, QPointF, QSettings, Qt, QTimer
 from PySide6.QtGui import QMouseEvent
 
 SECONDS = 4.0
@@ -39,7 +39,8 @@ class Ear(QObject):
 
 
 def mouse(kind: QEvent.Type, place: QPointF, button: Qt.MouseButton, held: Qt.MouseButton, stamp: int) -> QMouseEvent:
-    event = QMouseEvent(kind, place, place, button, held, Qt.KeyboardModifier.NoModifier)
+    keys = Qt.KeyboardModifier.ControlModifier  # no steps: every move is another value
+    event = QMouseEvent(kind, place, place, button, held, keys)
     event.setTimestamp(stamp)
     return event
 
@@ -69,7 +70,9 @@ def dragged(application: QCoreApplication) -> tuple[float, float, list[float], t
     def until(done: Callable[[], bool], seconds: float = 60.0) -> None:
         end = time.perf_counter() + seconds
         while not done() and time.perf_counter() < end:
-            application.processEvents()
+            loop = QEventLoop()  # which sleeps between events, as the program's own does
+            QTimer.singleShot(50, loop.quit)
+            loop.exec()
 
     viewport = window.viewport
     until(lambda: viewport.viewer is not None and bool(viewport.viewer.scene.meshes) and not window.evaluation.waiting)
@@ -104,7 +107,7 @@ def dragged(application: QCoreApplication) -> tuple[float, float, list[float], t
         send(QEvent.Type.MouseButtonPress, grip, LEFT, LEFT, 2)
         begin, number = time.perf_counter(), 3
         while not stop.wait(1.0 / RATE):
-            turn = 40.0 * np.sin(time.perf_counter() - begin)
+            turn = 40.0 * np.sin(2.0 * (time.perf_counter() - begin))
             send(QEvent.Type.MouseMove, grip + turn * along, NONE, LEFT, number)
             number += 1
 

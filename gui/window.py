@@ -202,7 +202,8 @@ class MainWindow(QMainWindow):
         self.status.set_problem(next((problem.message for problem in shown.problems if problem.error), ""))
         self.status.set_time(seconds)
         self.measure_selection()
-        self.actions_.refresh()
+        if not self.session.previewing:
+            self.actions_.refresh()
 
     def measure_selection(self) -> None:
         shown, selection, document = self.evaluation.latest, self.session.selection, self.session.document

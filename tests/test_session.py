@@ -3,6 +3,7 @@
 import random
 
 import pytest
+from replay import replayed
 
 from solidtree.model import script
 from solidtree.model.document.document import Document
@@ -28,24 +29,6 @@ class Listener:
             assert before.document is last.document and before.selection == last.selection, "a change was not told"
         assert after.document is self.session.document and after.selection == self.session.selection
         self.heard.append((before, after))
-
-
-def replayed(lines, start):
-    """The document that the lines of a log make of another one."""
-    document = start
-    names = {name: getattr(script, name) for name in script.__all__}
-
-    def bound(operation):
-        def run(*arguments, **keywords):
-            nonlocal document
-            document = operation(document, *arguments, **keywords)
-
-        return run
-
-    names |= {name: bound(operation) for name, operation in OPERATIONS.items()}
-    for line in lines:
-        exec(line, names)
-    return document
 
 
 def test_undo_and_redo_give_the_very_documents():

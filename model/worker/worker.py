@@ -25,11 +25,14 @@ from .shown import Message, shown_key
 
 INTERVAL = 0.1
 """Seconds between two reports of progress."""
+NICENESS = 5
+"""How far the worker stands back, in the steps of Unix."""
 
 
 def work(connection: Connection, store_folder: str) -> None:
     """Answer requests until the other side is gone."""
     _die_with_parent()
+    _stand_back()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     from ..project.assets import use_store
 
@@ -48,6 +51,12 @@ def _die_with_parent() -> None:
     if sys.platform == "linux":
         pr_set_pdeathsig = 1
         ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGKILL)
+
+
+def _stand_back() -> None:
+    """Let the window draw first where both want the same processor."""
+    if hasattr(os, "nice"):
+        os.nice(NICENESS)
 
 
 class _Worker:

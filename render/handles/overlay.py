@@ -41,6 +41,7 @@ class Overlay:
         self.renderer = vtkRenderer()
         self.renderer.SetLayer(layer)
         self.renderer.InteractiveOff()
+        self.renderer.SetUseOIT(False)  # it would draw what is translucent to buffers of its own: 10 ms on a processor
         window.SetNumberOfLayers(max(window.GetNumberOfLayers(), layer + 1))
         window.AddRenderer(self.renderer)
         light_up(self.renderer)
