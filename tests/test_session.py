@@ -1,6 +1,4 @@
-"""The session: history, selection, previews, the signal, the log; and two thousand edits drawn at random."""
-
-import random
+"""The session: history, selection, previews, the signal, the log."""
 
 import pytest
 from replay import replayed
@@ -8,8 +6,8 @@ from replay import replayed
 from solidtree.model import script
 from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
-from solidtree.model.document.table import from_table, same_document, to_table
-from solidtree.model.document.tree import find, walk
+from solidtree.model.document.table import same_document
+from solidtree.model.document.tree import find
 from solidtree.model.editing.session import Session
 from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
@@ -245,133 +243,4 @@ def test_the_log_replayed_makes_the_same_document():
     session.do("insert_document", document_of(sphere(parameter("r", 3)), box(1)))
     session.do("combine", "hull", [session.document.solids[-1].id])
     session.do("rename_parameter", "r", "radius")
-    assert same_document(replayed(session.log, Document()), session.document)
-
-
-# Two thousand edits drawn at random.
-
-
-def random_leaf(draw):
-    names = ["width", "depth", "gone", "width +", "1 / 0", "nan"]
-    number = draw.choice([1, 2.5, -3, 0, draw.choice(names), parameter("fresh", 7)])
-    kinds = [lambda: box(number), lambda: sphere(number), lambda: script.rectangle(number), script.halfspace,
-             lambda: script.extrude(script.circle(number)),
-             lambda: script.instance(f"n{draw.randrange(40)}")]  # fmt: skip
-    return draw.choice(kinds)()
-
-
-def random_tree(draw):
-    node = random_leaf(draw)
-    for _ in range(draw.randrange(4)):
-        node = draw.choice([script.union, script.difference, script.mirror, script.linear_array, script.extrude])(node)
-        node = draw.choice(
-            [node, node.at(1), node.named("x"), node.scaled(draw.choice([2, 0, "width"])), node.hidden()]
-        )
-    return node
-
-
-def random_step(draw, document):
-    ids = [node.id for node in walk(*document.roots)] + ["gone"]
-    one = lambda: draw.choice(ids)  # noqa: E731
-    many = lambda: draw.choices(ids, k=draw.randrange(4))  # noqa: E731
-    place = draw.choice([None, None, 0, 1, 2, -1, 99])
-    number = draw.choice([0, 1, 2.5, -4, "width", "depth * 2", "gone", "1 +", float("nan"), float("inf"), None, "é"])
-    kind = draw.choice(["union", "difference", "intersection", "hull", "minkowski", "linear_array", "polar_array",
-                        "mirror", "extrude", "revolve", "box", "instance", "nonsense"])  # fmt: skip
-    field = draw.choice(["size", "radius", "count", "point", "keep", "definition", "points", "height", "colour", "id"])
-    value = draw.choice([number, (1, number, 3), True, None, one(), [(0, 0), (1, number), (0, 1)], "x"])
-    step = draw.choice([lambda: script.at(number), lambda: script.turned(z=number), lambda: script.scaled(number),
-                        script.mirrored, lambda: 5])  # fmt: skip
-    name = draw.choice(["width", "depth", "other", "if", "sin", "2x", "fresh"])
-    return draw.choice(
-        [
-            lambda: ("insert", random_tree(draw), draw.choice([None, one()]), place),
-            lambda: ("insert", random_tree(draw)),
-            lambda: ("replace", one(), random_tree(draw)),
-            lambda: ("insert_document", document_of(random_tree(draw))),
-            lambda: ("delete", many()),
-            lambda: ("rename", one(), draw.choice(["", "a", "b c", "Union", "\n"])),
-            lambda: ("set_field", one(), field, value),
-            lambda: ("place", one(), *(step() for _ in range(draw.randrange(3)))),
-            lambda: ("move", many(), number, draw.choice([0, 1])),
-            lambda: ("set_colour", many(), draw.choice(["red", None, "#123", "nope"])),
-            lambda: ("set_visible", many(), draw.choice([True, False])),
-            lambda: ("set_note", one(), draw.choice(["", "words"])),
-            lambda: ("combine", kind, many()),
-            lambda: ("dissolve", one()),
-            lambda: ("change_kind", one(), kind),
-            lambda: ("relocate", many(), draw.choice([None, one()]), place),
-            lambda: ("duplicate", many()),
-            lambda: ("link", one()),
-            lambda: ("unlink", one()),
-            lambda: ("set_parameter", name, number),
-            lambda: ("rename_parameter", name, draw.choice(["width", "depth", "other", "9"])),
-            lambda: ("delete_parameter", name),
-        ]
-    )()
-
-
-@pytest.mark.parametrize("seed", range(4))
-def test_five_hundred_random_edits_leave_a_valid_document_and_a_way_back(seed):
-    draw = random.Random(seed)
-    start = document_of(
-        union(box("width"), sphere(2)),
-        script.mirror(box(parameter("width", 3)).at(5)),
-        script.extrude(script.rectangle()),
-    )
-    session = Session(start, depth=10_000)
-    listener = Listener(session)
-    done = refused = 0
-    for _ in range(500):
-        before, log = session.document, session.log
-        sort = draw.random()
-        if sort < 0.08:
-            session.undo()
-        elif sort < 0.14:
-            session.redo()
-        elif sort < 0.2:
-            session.select(draw.choices([node.id for node in walk(*before.roots)] or ["n1"], k=2))
-        else:
-            try:
-                step = random_step(draw, before)
-                if sort < 0.3:
-                    session.preview(OPERATIONS[step[0]](session.document, *step[1:]))
-                    draw.choice([session.cancel, lambda: session.commit("Drag"), lambda: None])()
-                else:
-                    session.do(*step)
-                    done += 1
-            except Refusal as refusal:
-                refused += 1
-                assert session.document is before and session.log == log
-                assert 5 < len(str(refusal)) < 400 and "\n" not in str(refusal)
-        table = to_table(session.document)  # refuses doubled ids
-        assert to_table(from_table(table)) == table
-        names = [solid.name for solid in session.document.solids]
-        assert len(set(names)) == len(names)
-        if len(table["nodes"]) > 120:
-            session.do("delete", [node.id for node in session.document.solids[2:]])
-    session.cancel()
-    while session.redo():
-        pass
-    last = session.document
-    while session.undo():
-        pass
-    assert session.document is start and session.log == ()
-    while session.redo():
-        pass
-    assert session.document is last
-    assert done > 100 and refused > 50 and listener.heard
-
-
-def test_a_log_of_random_edits_makes_the_same_document():
-    draw = random.Random(7)
-    session = Session()
-    for _ in range(300):
-        try:
-            session.do(*random_step(draw, session.document))
-        except Refusal:
-            continue
-        if sum(1 for _ in walk(*session.document.roots)) > 60:
-            session.do("delete", [node.id for node in session.document.solids[1:]])
-    assert len(session.log) > 50
     assert same_document(replayed(session.log, Document()), session.document)

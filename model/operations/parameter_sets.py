@@ -12,14 +12,14 @@ from .parameters import declaring, names_of
 Pairs = Sequence[tuple[str, Number | str]]
 
 
-def set_parameters(document: Document, values: Pairs) -> Document:
-    """Give several parameters values at once, as pairs of name and value.
+def set_parameters(document: Document, values: Pairs | Mapping[str, Number | str]) -> Document:
+    """Give several parameters values at once, by name or as pairs of name and value.
 
     Refused as a whole where one does not exist, may not have its value, or where another one that is reckoned from
     them would be left without a value.
     """
     wanted: dict[str, Number] = {}
-    for name, value in values:
+    for name, value in _pairs(values):
         document.parameter(name)
         if name in wanted:
             raise Refusal(f"the parameter {name} is given twice")
@@ -36,6 +36,13 @@ def set_parameters(document: Document, values: Pairs) -> Document:
         if name in faults and name not in before:
             raise Refusal(faults[name])
     return after
+
+
+def _pairs(values: object) -> list[tuple[str, Number | str]]:
+    pairs = list(values.items()) if isinstance(values, Mapping) else values
+    if not isinstance(pairs, list | tuple) or not all(isinstance(p, list | tuple) and len(p) == 2 for p in pairs):
+        raise Refusal(f"pairs of a parameter's name and its value are needed, not {values!r:.60}")
+    return [(name, value) for name, value in pairs]
 
 
 def with_texts(document: Document, texts: Iterable[str]) -> Document:

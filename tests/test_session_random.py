@@ -1,0 +1,230 @@
+"""Two thousand edits drawn at random, sound and unsound: the document stays valid, the way back is the very same."""
+
+import itertools
+import random
+from collections import Counter
+
+import pytest
+from replay import replayed
+
+from solidtree.model import script
+from solidtree.model.document.errors import Refusal
+from solidtree.model.document.nodes import Instance, field_specs
+from solidtree.model.document.primitives import OUTLINES, Extrude, Revolve
+from solidtree.model.document.resolve import resolve
+from solidtree.model.document.table import from_table, same_document, to_table
+from solidtree.model.document.tree import find, walk
+from solidtree.model.editing.session import Session
+from solidtree.model.operations.operations import OPERATIONS
+from solidtree.model.operations.parameters import names_of
+from solidtree.model.operations.pasting import clip
+from solidtree.model.operations.sizing import field_of, size_handles, sized
+from solidtree.model.script import box, document_of, parameter, sphere, union
+from solidtree.model.solid.evaluate import Evaluator
+
+DRAWN, SEEDS = 1500, 4  # of which a good third is refused: more than two thousand edits in all
+
+
+def random_leaf(draw):
+    names = ["width", "depth", "gone", "width +", "1 / 0", "nan"]
+    number = draw.choice([1, 2.5, -3, 0, draw.choice(names), parameter("fresh", 7)])
+    kinds = [lambda: box(number), lambda: sphere(number), lambda: script.rectangle(number), script.halfspace,
+             lambda: script.extrude(script.circle(number)),
+             lambda: script.instance(f"n{draw.randrange(40)}")]  # fmt: skip
+    return draw.choice(kinds)()
+
+
+def random_tree(draw):
+    node = random_leaf(draw)
+    for _ in range(draw.randrange(4)):
+        node = draw.choice([script.union, script.difference, script.mirror, script.linear_array, script.extrude])(node)
+        node = draw.choice(
+            [node, node.at(1), node.named("x"), node.scaled(draw.choice([2, 0, "width"])), node.hidden()]
+        )
+    return node
+
+
+def random_step(draw, document):
+    """An operation and its arguments: mostly ones that make sense, else anything."""
+    sound = draw.random() < 0.6
+    pick = lambda good, bad=(): draw.choice([*good] if sound else [*good, *bad])  # noqa: E731
+    ids = [node.id for node in walk(*document.roots)]
+    ids = ids if sound and ids else [*ids, "gone"]
+    one = lambda: draw.choice(ids)  # noqa: E731
+    many = lambda: draw.choices(ids, k=draw.randrange(1, 4) if sound else draw.randrange(4))  # noqa: E731
+    place = pick([None, 0, 1], [2, -1, 99])
+    number = pick([1, 2.5, "width"], [0, -4, "depth * 2", "gone", "1 +", float("nan"), float("inf"), None, "é"])
+    kind = pick(["union", "difference", "intersection", "hull", "linear_array", "mirror"],
+                ["minkowski", "polar_array", "extrude", "revolve", "box", "instance", "nonsense"])  # fmt: skip
+    of_field = {node.id: [spec.name for spec in field_specs(type(node))] for node in walk(*document.roots)}
+    sizes = [i for i, names in of_field.items() if "radius" in names or "height" in names]
+    sized_id = draw.choice(sizes) if sizes and sound else one()
+    field = pick([name for name in ("radius", "height") if name in of_field.get(sized_id, ())] or ["radius"],
+                 ["size", "count", "point", "keep", "definition", "points", "colour", "id"])  # fmt: skip
+    value = pick([number], [(1, number, 3), True, None, one(), [(0, 0), (1, number), (0, 1)], "x"])
+    step = pick([lambda: script.at(number), lambda: script.turned(z=number), lambda: script.scaled(number)],
+                [script.mirrored, lambda: 5])  # fmt: skip
+    name = pick(["width", "depth"], ["other", "if", "sin", "2x", "fresh"])
+    vector = pick([(1, 0, 0), (0, 2, -1), (4, "width", 1)], [(0, 0, 0), (1, 2), "z", None, (float("nan"), 0, 0)])
+    label = pick(["a", "b"], ["", "x" * 300])
+    changes = [
+        lambda: ("turn", many(), draw.choice(["x", "z", vector]), number),
+        lambda: ("turn", many(), "y", 30, vector),
+        lambda: ("scale", many(), draw.choice([2, 0.5, number])),
+        lambda: ("shift", {one(): vector, one(): (1, 0, 0)}),
+        lambda: ("set_fields", sized_id, vector, {field: value}),
+        lambda: ("copy_to", many(), draw.choice([None, one()]), place),
+        lambda: ("paste", clip(document, ids[:1]) if len(ids) > 1 else document, draw.choice([None, one()]), place),
+        lambda: ("reorder", many(), draw.choice([-2, -1, 1, 5])),
+        lambda: ("promote", one()),
+        lambda: ("swap", one(), one()),
+        lambda: ("rename_each", many(), draw.choice(["part #", "", "same"])),
+        lambda: ("reorder_parameter", name, draw.choice([0, 1, -1, 9])),
+        lambda: ("set_parameters", {name: number, "width": 4}),
+        lambda: ("save_set", label),
+        lambda: ("apply_set", label),
+        lambda: ("rename_set", label, draw.choice(["a", "b", ""])),
+        lambda: ("delete_set", label),
+        lambda: ("put_sets", [(label, [(name, number)])]),
+        lambda: ("add_section", label, vector, draw.choice([vector, (0, 0, -1)])),
+        lambda: ("set_section", label, {"point": vector}),
+        lambda: ("set_section", label, {"active": draw.choice([True, False, 1])}),
+        lambda: ("rename_section", label, draw.choice(["a", "b", ""])),
+        lambda: ("delete_section", label),
+    ]
+    return draw.choice(
+        [
+            *changes,
+            lambda: ("insert", random_tree(draw), draw.choice([None, one()]), place),
+            lambda: ("insert", random_tree(draw)),
+            lambda: ("replace", one(), random_tree(draw)),
+            lambda: ("insert_document", draw.choice([document_of(union(box(parameter("depth", 2)), sphere(1))), None])),
+            lambda: ("delete", many()),
+            lambda: ("rename", one(), draw.choice(["", "a", "b c", "Union", "\n"])),
+            lambda: ("set_field", sized_id, field, value),
+            lambda: ("place", one(), *(step() for _ in range(draw.randrange(3)))),
+            lambda: ("move", many(), number, draw.choice([0, 1])),
+            lambda: ("set_colour", many(), draw.choice(["red", None, "#123", "nope"])),
+            lambda: ("set_visible", many(), draw.choice([True, False])),
+            lambda: ("set_note", one(), draw.choice(["", "words"])),
+            lambda: ("combine", kind, many()),
+            lambda: ("dissolve", one()),
+            lambda: ("change_kind", one(), kind),
+            lambda: ("relocate", many(), draw.choice([None, one()]), place),
+            lambda: ("duplicate", many()),
+            lambda: ("link", one()),
+            lambda: ("unlink", one()),
+            lambda: ("set_parameter", name, number),
+            lambda: ("rename_parameter", name, draw.choice(["width", "depth", "other", "9"])),
+            lambda: ("delete_parameter", name),
+        ]
+    )()
+
+
+def call(step):
+    """Arguments and keywords of a drawn step; a dictionary that comes last may stand for keywords."""
+    name, *arguments = step
+    if name in ("set_fields", "set_section") and isinstance(arguments[-1], dict):
+        return name, arguments[:-1], arguments[-1]
+    return name, arguments, {}
+
+
+def handle_drag(draw, session):
+    """What a drag of a handle does: some documents on the way, then one step of the history, or none."""
+    start = session.document
+    node = find(start, draw.choice([node.id for node in walk(*start.roots)] or ["gone"]))
+    handles = [handle for handle in size_handles(node) if isinstance(field_of(node, handle), float)]
+    way = [round(draw.uniform(-3, 12), 1) for _ in range(3)]
+    if handles and draw.random() < 0.5:
+        handle = draw.choice(handles)
+        calls = [("set_fields", (node.id,), sized(node, handle, value, value)) for value in way]
+    else:
+        calls = [
+            draw.choice([("move", ([node.id], value), {}), ("turn", ([node.id], "z", value), {})]) for value in way
+        ]
+    for name, arguments, keywords in calls:
+        session.preview(OPERATIONS[name](start, *arguments, **keywords))
+    if draw.random() < 0.3:
+        session.cancel()
+        assert session.document is start
+    else:
+        name, arguments, keywords = calls[-1]
+        session.do(name, *arguments, **keywords)
+
+
+def check(document):
+    """What holds for every document, whatever was done to it."""
+    table = to_table(document)  # refuses doubled ids
+    assert to_table(from_table(table)) == table
+    names = [solid.name for solid in document.solids]
+    assert len(set(names)) == len(names) and all(names)
+    known = {parameter.name for parameter in document.parameters}
+    definitions = {root.id for root in document.definitions}
+    for node in walk(*document.roots):
+        fewest, most = type(node).operands
+        assert isinstance(node, Instance) or len(node.children) >= fewest
+        assert most is None or len(node.children) <= most
+        flat = isinstance(node, Extrude | Revolve)
+        assert all(isinstance(child, OUTLINES) == flat for child in node.children)
+        assert names_of(node.expressions()) <= known
+        assert not isinstance(node, Instance) or node.definition in definitions
+    for one in document.sets:
+        assert {name for name, _ in one.values} <= known
+    assert sum(section.active for section in document.sections) <= 6
+    assert len(resolve(document).solids) == len(document.solids)
+
+
+@pytest.mark.parametrize("seed", range(SEEDS))
+def test_random_edits_leave_a_valid_document_and_the_very_way_back(seed):
+    draw = random.Random(seed)
+    start = document_of(
+        union(box("width"), sphere(2)),
+        script.mirror(box(parameter("width", 3)).at(5)),
+        script.extrude(script.rectangle()),
+    )
+    session, evaluator = Session(start, depth=10_000), Evaluator()
+    told = []
+    session.on_change(lambda before, after: told.append((before, after)))
+    done, refused, dragged, back = Counter(), 0, 0, 0
+    for count in range(DRAWN):
+        before, log = session.document, session.log
+        sort = draw.random()
+        try:
+            if sort < 0.08:
+                back += session.undo()
+            elif sort < 0.14:
+                back += session.redo()
+            elif sort < 0.18:
+                session.select(draw.choices([node.id for node in walk(*before.roots)] or ["n1"], k=2))
+            elif sort < 0.3:
+                handle_drag(draw, session)
+                dragged += 1
+            else:
+                name, arguments, keywords = call(random_step(draw, before))
+                session.do(name, *arguments, **keywords)
+                done[name] += session.document is not before
+        except Refusal as refusal:
+            refused += 1
+            session.cancel()
+            assert session.document is before and session.log == log
+            assert 5 < len(str(refusal)) < 400 and "\n" not in str(refusal)
+        check(session.document)
+        if count % 25 == 0:
+            for root in resolve(session.document).solids:
+                entry = evaluator.evaluate(root, 1.0)
+                assert entry.solid is not None or entry.problems
+        if sum(1 for _ in walk(*session.document.roots)) > 100:
+            session.do("delete", [node.id for node in session.document.solids[2:]])
+    while session.redo():
+        pass
+    last = session.document
+    assert same_document(replayed(session.log, start), last)
+    while session.undo():
+        pass
+    assert session.document is start and session.log == ()
+    while session.redo():
+        pass
+    assert session.document is last
+    assert done.total() + dragged + back > 500 and len(+done) > 30 and refused > 100
+    for (_, after), (before, _) in itertools.pairwise(told):
+        assert after.document is before.document, "a change was not told"
