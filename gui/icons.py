@@ -11,8 +11,8 @@ from PySide6.QtGui import QColor, QGuiApplication, QIcon, QIconEngine, QPainter,
 from PySide6.QtSvg import QSvgRenderer
 
 from .. import resources
+from ..model.document.kind_names import function_name
 from ..model.document.nodes import Node
-from ..model.editing.echo import function_name
 
 INK = "#1d242d"
 Colour = str | Callable[[], str] | None

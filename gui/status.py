@@ -22,9 +22,9 @@ def figure(value: float | None, digits: int = 6) -> str:
         return "\u2013"
     if abs(value) > 1e-9 and not 1e-4 <= abs(value) < 1e12:
         return f"{value:.{digits}g}"
-    value = round(value, 12) + 0.0  # no -0
     whole = len(str(int(abs(value))))
-    text = f"{value:,.{max(0, digits - whole)}f}".replace(",", "\u202f")
+    places = max(0, digits - whole)
+    text = f"{round(value, places) + 0.0:,.{places}f}".replace(",", "\u202f")  # no -0
     return text.rstrip("0").rstrip(".") if "." in text else text
 
 

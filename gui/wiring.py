@@ -87,3 +87,4 @@ def _measuring(window: MainWindow) -> None:
     panel.removed.connect(tool.remove)
     panel.cleared.connect(tool.clear)
     panel.start_asked.connect(lambda: window.actions_.run("measure"))
+    window.files.opened.connect(tool.clear)

@@ -82,14 +82,16 @@ class Scene:
         """Highlight every triangle whose owner's path begins with one of the paths, and outline it."""
         selection = frozenset(paths)
         if selection != self.selection:
+            changed = {path[0] for path in selection ^ self.selection}
             self.selection = selection
-            self._paint_all()
+            self._paint_some(changed)
 
     def set_hover(self, path: Path | None) -> None:
         """Tint what stands at or below the path; None ends it."""
         if path != self.hover:
+            changed = {end[0] for end in (path, self.hover) if end}
             self.hover = path
-            self._paint_all()
+            self._paint_some(changed)
 
     def set_style(self, style: str) -> None:
         """One of look.STYLES, else ValueError."""
@@ -181,9 +183,11 @@ class Scene:
     def _paint(self, entry: SolidActors) -> None:
         entry.paint(self.style, self.look, self.selection, self.hover, self._ground)
 
-    def _paint_all(self) -> None:
-        for entry in self._solids.values():
-            self._paint(entry)
+    def _paint_some(self, solid_ids: Iterable[str | int]) -> None:
+        for solid_id in solid_ids:
+            entry = self._solids.get(str(solid_id))
+            if entry is not None:
+                self._paint(entry)
 
 
 def _same(a: Any, b: Any) -> bool:

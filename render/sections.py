@@ -280,7 +280,7 @@ class Sections:
 def _colour_of(outline: SectionOutline, mesh: DisplayMesh, colours: Any, look: Look) -> Colour:
     """The colour of the operand that has the most of the rim, those left out that were subtracted."""
     sides = np.linalg.norm(outline.points[outline.following] - outline.points, axis=1)
-    kept = outline.owners % 2 == 0
+    kept = (outline.owners >= 0) & (outline.owners % 2 == 0)
     share = np.bincount(outline.owners[kept] // 2, sides[kept])
     return rgb(palette(mesh, colours, look)[int(np.argmax(share)) if len(share) else 0, 0])
 

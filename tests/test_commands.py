@@ -44,6 +44,17 @@ def test_what_is_added_is_a_solid_that_can_be_seen(name):
         assert evaluate(session.document).solids[0].measures().volume > 0
 
 
+def test_a_half_space_goes_only_where_it_cuts_something():
+    balls = document_of(sphere(10) + sphere(4))
+    for selected in ([], ["n1"], ["n2"]):
+        root = used("add_halfspace", *selected, document=balls).document.solids
+        assert [node.kind for node in root] == ["Union", "Halfspace"]
+    (cut,) = used("add_halfspace", "n1", document=document_of((sphere(10) + sphere(4)) & box(9))).document.solids
+    assert [child.kind for child in cut.children] == ["Union", "Box", "Halfspace"]
+    (cut,) = used("add_halfspace", "n2", document=document_of((sphere(10) + sphere(4)) & box(9))).document.solids
+    assert [child.kind for child in cut.children] == ["Union", "Halfspace", "Box"]
+
+
 @pytest.mark.parametrize(
     ("selected", "family"),
     [

@@ -9,10 +9,10 @@ import pytest
 from solidtree.gui.command_line import main
 from solidtree.model.document.document import Document
 from solidtree.model.document.errors import Refusal
+from solidtree.model.document.kind_names import function_name
 from solidtree.model.document.nodes import KINDS, Broken, Node, Union
 from solidtree.model.document.primitives import Box
 from solidtree.model.document.tree import walk
-from solidtree.model.editing.echo import function_name
 from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.script import box, cylinder, difference, document_of, linear_array, save, sphere, union
 from solidtree.render.drawing.csg_diagram import BETWEEN, GAP, LEVEL, diagram, diagram_of, packed, roots_of

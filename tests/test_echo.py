@@ -6,12 +6,13 @@ import pytest
 from solidtree.model import script
 from solidtree.model.document.document import Document
 from solidtree.model.document.expression import Expression
+from solidtree.model.document.kind_names import function_name
 from solidtree.model.document.nodes import KINDS, Union
 from solidtree.model.document.placement import Affine, Move, Placement, Reflect, Scale, Turn
 from solidtree.model.document.primitives import Polyhedron, Rectangle
 from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered
-from solidtree.model.editing.echo import call, function_name, script_of
+from solidtree.model.editing.echo import call, script_of
 from solidtree.model.script import box, circle, cylinder, difference, extrude, instance, parameter, polar_array, sphere
 
 NAMES = {name: getattr(script, name) for name in script.__all__}

@@ -4,17 +4,21 @@ import os
 import queue
 import signal
 import time
+from multiprocessing import Pipe
 
 import numpy as np
 import pytest
 
 from solidtree.model.document.document import Document
+from solidtree.model.document.table import to_table
 from solidtree.model.document.tree import change, numbered
+from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
 from solidtree.model.worker.lane import Lane
 from solidtree.model.worker.messages import Cancelled, Died, Evaluated, Examined, Exported, Progress, Started
 from solidtree.model.worker.process import WorkerProcess
+from solidtree.model.worker.worker import _Worker
 
 
 class Listener:
@@ -108,6 +112,22 @@ def test_progress_is_told_and_a_newer_document_supersedes(listener):
     assert newer.shown.solids["n1"].measures.volume == pytest.approx(1)
     assert not any(isinstance(m, Evaluated) and m.request == old for m in listener.seen)
     assert not any(isinstance(m, Died) for m in listener.seen)
+
+
+def test_previews_of_a_drag_are_finished_and_of_those_that_wait_the_newest_is_taken(listener):
+    some = document_of(some=union(*(sphere(10, segments=64).at(3 * i) for i in range(20))))
+    first = listener.lane.evaluate(some, 0.2, supersedes=False)
+    while listener.lane.at_work != first:
+        os.sched_yield()
+    second = listener.lane.evaluate(document_of(a=box(1)), 0.2, supersedes=False)
+    third = listener.lane.evaluate(document_of(a=box(2)), 0.2, supersedes=False)
+    assert listener.wait_for(Evaluated).request == first
+    assert listener.wait_for(Evaluated).request == third and second < third
+    at_last = listener.lane.evaluate(heavy(), supersedes=False)
+    listener.wait_for(Progress, request=at_last)
+    committed = listener.evaluate(document_of(a=box(3)))  # which a preview does not delay
+    assert committed.shown.solids["n1"].measures.volume == pytest.approx(27)
+    assert not any(isinstance(m, Evaluated) and m.request == at_last for m in listener.seen)
 
 
 def test_cancel_ends_the_work_within_a_second_and_the_lane_goes_on(listener):
@@ -213,6 +233,14 @@ def test_getting_ready_makes_the_first_move_of_an_operand_cheap(listener):
     assert answer.shown.solids["n1"].measures.genus == 200
     listener.lane.prepare(Document(solids=moved.solids), "n1")  # nothing to get ready for: no harm
     assert listener.evaluate(document).evaluations == 0
+
+
+def test_in_a_definition_there_is_nothing_to_get_ready_for():
+    linked = OPERATIONS["link"](document_of(box(10) - sphere(3)), ["n1"])
+    here, there = Pipe()
+    with here, there:
+        _Worker(there).answer(("prepare", 7, to_table(linked), (0.05,), linked.definitions[0].children[1].id))
+        assert here.recv() == ("prepared", 7)
 
 
 def test_the_worker_goes_when_its_owner_does():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from solidtree.model.document.document import Document, Parameter
+from solidtree.model.document.document import Document, Parameter, ParameterSet, Section
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.nodes import Broken, Difference, Instance, LinearArray, Mirror, PolarArray, Union
 from solidtree.model.document.placement import Move, Scale, product
@@ -551,3 +551,15 @@ def test_one_of_a_thousand_shares_the_others():
     after = do(plate, "move", ["n500"], 1)
     same = [a is b for a, b in zip(plate.solids[0].children, after.solids[0].children, strict=True)]
     assert same.count(False) == 1 and not same[498]
+
+
+def test_a_document_put_into_another_brings_its_sets_and_closed_sections():
+    width = (Parameter("width", 3),)
+    here = Document(parameters=width, sets=(ParameterSet("wide", (("width", 9),)),), sections=(Section("cut"),))
+    there = Document(parameters=width, sets=(ParameterSet("wide", (("width", 7),)),), sections=(Section("cut"),))
+    after = OPERATIONS["insert_document"](here, there)
+    assert [(one.name, one.values) for one in after.sets] == [
+        ("wide", (("width", 9.0),)),
+        ("wide 2", (("width", 7.0),)),
+    ]
+    assert [(one.name, one.active) for one in after.sections] == [("cut", True), ("cut 2", False)]

@@ -105,3 +105,16 @@ def test_nodes_as_python():
         deep = union(deep)
     with pytest.raises(Refusal, match="levels deep"):
         script_text(document_of(deep), ["n1"])
+
+
+def test_an_equal_definition_of_an_instance_of_another_comes_along():
+    def made(size):
+        document = do(Document(), "insert", box(size))
+        document = do(do(document, "link", "n1"), "combine", "union", ["n2"])
+        return do(document, "link", "n3")
+
+    small, large = made(1), made(2)
+    after = do(large, "paste", clip(small, [small.solids[0].id]))
+    sizes = [root.children[0].children[0].children[0].size[0] for root in resolve(after).solids]
+    assert sizes == [2, 1] and len(after.definitions) == 4
+    assert do(small, "paste", clip(small, [small.solids[0].id])).definitions == small.definitions

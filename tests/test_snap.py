@@ -8,7 +8,7 @@ import pytest
 from solidtree.model.script import box, cylinder, document_of, union
 from solidtree.model.solid.results import evaluate_document
 from solidtree.render.camera import project
-from solidtree.render.handles.snap import REACH, Snap, Snapper
+from solidtree.render.handles.snap import REACH, Snap, Snapper, _Target
 from solidtree.render.handles.snap_mark import CORE, RIM, SnapMark
 from solidtree.render.look import rgb
 from solidtree.render.viewer import Viewer
@@ -203,3 +203,14 @@ def test_the_signs_differ(look):
     for i, one in enumerate(pictures):
         for other in pictures[:i]:
             assert (one != other).any(axis=2).sum() > 25
+
+
+def test_a_solid_that_is_dragged_whole_is_prepared_once(look, monkeypatch):
+    viewer = look(box(10), box(10).at(30))
+    made = []
+    start = _Target.__init__
+    monkeypatch.setattr(_Target, "__init__", lambda self, *arguments: made.append(start(self, *arguments)))
+    snapper = Snapper(viewer)
+    for x in (100.0, 110.0, 120.0):
+        snapper.find(x, 150.0, ("n1",))
+    assert len(made) == 2

@@ -5,7 +5,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QApplication, QLineEdit, QMessageBox, QToolButton
 
-from solidtree.gui.commands.menus import example_names, open_example
+from solidtree.gui.commands.menus import ORDER, example_names, open_example
 from solidtree.gui.dialogs import ExportDialog
 from solidtree.gui.panels.measures import MeasuresView
 from solidtree.model.document.document import Document
@@ -20,6 +20,14 @@ CTRL = Qt.KeyboardModifier.ControlModifier
 
 def kinds(document: Document) -> list[str]:
     return [root.kind for root in document.solids]
+
+
+def test_every_command_of_a_menu_has_its_place_there(driver):
+    for top in driver.window.menuBar().actions():
+        title, entries = top.text().strip("&"), top.menu().actions()
+        wanted = ORDER[title].split()
+        assert len(entries) == len(wanted), title
+        assert [action.isSeparator() for action in entries] == [name == "-" for name in wanted]
 
 
 def test_primitives_come_by_their_shortcuts_and_are_shown(driver):

@@ -143,3 +143,17 @@ def test_every_command_has_an_icon_and_a_place_in_the_menu(driver):
     for command in ARRANGE_COMMANDS:
         action = driver.window.actions_[command.name]
         assert not action.icon().isNull() and not action.isEnabled() and command.tip
+
+
+def test_of_the_tools_that_take_clicks_one_is_active(make_window):
+    driver = make_window(document_of(a=box(10), b=box(4).at(20)))
+    window = driver.window
+    chosen(driver, "b")
+    driver.keys("Shift+M", window.viewport)
+    assert window.measure.active
+    run(driver, "place_on_face")
+    assert window.place_on_face.active and not window.measure.active
+    driver.keys("Shift+M", window.viewport)
+    assert window.measure.active and not window.place_on_face.active
+    run(driver, "section_face")
+    assert not window.measure.active

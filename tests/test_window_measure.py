@@ -128,6 +128,15 @@ def test_escape_keeps_the_first_then_ends_and_a_drag_still_orbits(plate):
     assert not window.measure.active and len(window.measure.taken) == 2 and plate.session.selection == ()
 
 
+def test_a_key_of_the_handles_ends_measuring_so_that_they_can_be_dragged(plate):
+    plate.click_row(plate.document.solids[0])
+    plate.keys("Shift+M", plate.window.viewport)
+    assert plate.window.measure.active
+    plate.keys("S", plate.window.viewport)
+    assert not plate.window.measure.active and plate.window.handles.mode == "scale"
+    plate.keys("Escape", plate.window.viewport)
+
+
 def test_what_changes_under_a_measurement_greys_it_and_undo_brings_it_back(make_window):
     driver = make_window(document_of(plate=PLATE, ball=sphere(8).at(20, 15, 40)))
     driver.look_from("iso")
@@ -150,3 +159,21 @@ def test_what_changes_under_a_measurement_greys_it_and_undo_brings_it_back(make_
     window.docks["Measure"].raise_()
     driver.qtbot.mouseClick(remove, Qt.MouseButton.LeftButton)
     assert not window.measure.taken and window.measurements.empty.isVisibleTo(window.measurements)
+
+
+def test_an_isolated_operand_is_measured(plate):
+    plate.session.select([plate.document.solids[0].children[0].id])
+    plate.keys("I", plate.window.viewport)
+    plate.settle()
+    assert plate.session.isolated
+    plate.keys("Shift+M", plate.window.viewport)
+    plate.click_at((33, 26, 12))
+    assert plate.window.measure.taken[0].measurement.title == "Face"
+
+
+def test_another_document_has_no_measurements_yet(plate):
+    plate.keys("Shift+M", plate.window.viewport)
+    plate.click_at((40, 15, 12))
+    assert plate.window.measure.taken
+    plate.open(document_of(box(10)))
+    assert not plate.window.measure.taken

@@ -222,6 +222,11 @@ def test_the_space_bar_offers_what_makes_sense_now(driver):
     driver.keys("Right", menu)
     driver.keys("Return", menu.focusWidget())
     assert [root.kind for root in driver.document.solids] == ["Difference"]
+    driver.click_row(driver.document.solids[0])  # the tree has the keys now
+    driver.keys("Space")
+    menu = QApplication.activePopupWidget()
+    assert isinstance(menu, ToolMenu) and "Dissolve" in titles(menu)
+    driver.keys("Escape", menu)
 
 
 def test_what_lies_under_the_pointer_is_meant_where_nothing_is_selected(driver):

@@ -72,6 +72,17 @@ def test_keys_step_a_slider_once(driver, panel):
     assert value(driver, "r") == 20 and len(driver.session.log) == 3
 
 
+def test_undo_takes_back_a_run_that_is_under_way(driver, panel):
+    driver.session.do("set_parameter", "teeth", 6)
+    slider, before = panel.rows["r"].slider, driver.document
+    slider.setFocus()
+    driver.qtbot.keyPress(slider, Qt.Key.Key_Right)
+    assert driver.session.previewing
+    driver.keys("Ctrl+Z", slider)
+    driver.qtbot.keyRelease(slider, Qt.Key.Key_Right)
+    assert driver.document is before and driver.session.redo_label == "Change r"
+
+
 def test_the_editor_follows_the_definition(driver, panel):
     r, half, teeth = (panel.rows[name] for name in ("r", "half", "teeth"))
     assert r.slider.isVisible() and not half.slider.isVisible() and not r.choice.isVisible()

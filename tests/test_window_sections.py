@@ -156,3 +156,18 @@ def test_directions_are_read_as_they_are_written():
     for wrong in ("", "w", "1 2", "1 2 3 4", "--x z"):
         with pytest.raises(Refusal):
             normal_from(wrong)
+
+
+def test_a_drag_ends_where_another_document_is_opened(opened):
+    driver, viewport = opened, opened.window.viewport
+    driver.keys("Alt+Z", viewport)
+    tip, foot = pixel_on(driver, "section", 0.8), pixel_on(driver, "section", 0.2)
+    driver.qtbot.mousePress(viewport, LEFT, pos=tip)
+    moved(driver, foot)
+    assert driver.session.previewing
+    other = add_section(document_of(box(10)), "Section")
+    driver.open(other)
+    moved(driver, tip + (tip - foot))
+    assert driver.document is other
+    driver.qtbot.mouseRelease(viewport, LEFT, pos=foot)
+    assert driver.document is other and not driver.session.modified

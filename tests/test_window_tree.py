@@ -180,6 +180,8 @@ def test_an_impossible_drop_is_refused_before_the_release_and_says_why(driver):
     before, status = driver.document, driver.window.status
     tree, loose = driver.window.tree, Drag(driver, "loose")
     assert loose.over(driver.row(find(before, "part"))) == MOVE
+    driver.qtbot.wait(100)  # near the upper edge, where the tree would scroll if it could
+    assert tree._mark is not None
     assert loose.over(driver.row(find(before, "part")), CTRL) == COPY
     assert loose.over(driver.row(find(before, "cube"))) == Qt.DropAction.IgnoreAction
     assert "“cube” is a box, which takes no operands" in status.currentMessage() and tree._mark is None

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from html import escape
 
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
-from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QToolBar, QWidget
+from PySide6.QtWidgets import QApplication, QMenu, QMenuBar, QToolBar, QToolButton, QWidget
 
 from ...model.document.errors import Refusal
 from ...model.editing.commands import Command
 from ..icons import icon
 from ..panels.text_line import TextLine
+from ..parameters.value_slider import ValueSlider
 from ..settings import Settings
 
 MENUS = ("File", "Edit", "Add", "Combine", "Tools", "View", "Help")
@@ -101,8 +103,8 @@ class Actions(QObject):
     def run(self, name: str) -> None:
         command, context, _ = self._entries[name]
         focus = QApplication.focusWidget()
-        if isinstance(focus, TextLine):
-            focus.submit()  # what is typed counts before what is done next
+        if isinstance(focus, TextLine | ValueSlider):
+            focus.submit()  # what is typed or turned counts before what is done next
         try:
             fault = command.fault(context)
             if fault:
@@ -143,6 +145,10 @@ class Actions(QObject):
                 bar.addAction(self[name])
             else:
                 bar.addSeparator()
+        more = bar.findChild(QToolButton, "qt_toolbar_ext_button")  # shown where the window is too narrow
+        if more is not None:
+            more.setIcon(icon("more"))
+            more.setToolTip("More buttons")
 
 
 def _sequences(keys: str) -> list[QKeySequence]:
@@ -159,5 +165,5 @@ def tool_tip(command: Command, action: QAction, fault: str | None) -> str:
     if command.tip:
         lines.append(command.tip)
     if fault:
-        lines.append(f"<i>Not now: {fault}</i>")
+        lines.append(f"<i>Not now: {escape(fault)}</i>")
     return "<p style='white-space:pre'>" + "<br>".join(lines) + "</p>"

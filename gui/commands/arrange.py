@@ -84,6 +84,11 @@ def _centre(window: MainWindow) -> None:
     _arrange(window, "Centre on the ground", centred)
 
 
+def _place(window: MainWindow) -> None:
+    window.measure.end()
+    window.place_on_face.start()
+
+
 def _place_fault(window: MainWindow) -> str | None:
     return "select one node only" if len(window.session.selection) > 1 else _fault(1)(window)
 
@@ -115,7 +120,7 @@ def _distribute_commands() -> tuple[Command, ...]:
 
 
 ARRANGE_COMMANDS: tuple[Command, ...] = (
-    Command("place_on_face", "Place on face …", MENU, lambda w: w.place_on_face.start(), _place_fault, "Shift+F",
+    Command("place_on_face", "Place on face …", MENU, _place, _place_fault, "Shift+F",
             "place_on_face", "Lay the selected node on a face that you click"),
     Command("drop_to_ground", "Drop to the ground", MENU, _drop, _fault(1), "Shift+D", "drop_to_ground",
             "Bring the lowest point of each selected node to z = 0"),

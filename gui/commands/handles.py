@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TYPE_CHECKING
 
 from ...model.editing.commands import Command
@@ -21,9 +22,17 @@ def _selected(window: MainWindow) -> str | None:
     return None if window.session.selection else "select a node first"
 
 
+def _choose(mode: str) -> Callable[[MainWindow], None]:
+    def run(window: MainWindow) -> None:
+        window.measure.end()  # it would keep the mouse from the handles
+        window.handles.choose(mode)
+
+    return run
+
+
 HANDLE_COMMANDS: tuple[Command, ...] = (
     *(
-        Command(f"handles_{mode}", title, "Tools", lambda w, mode=mode: w.handles.choose(mode), _selected, keys, mode,
+        Command(f"handles_{mode}", title, "Tools", _choose(mode), _selected, keys, mode,
                 tip, True, checked=lambda w, mode=mode: w.handles.mode == mode)
         for mode, title, keys, tip in _MODES
     ),

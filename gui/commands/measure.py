@@ -24,6 +24,7 @@ def _toggle(window: MainWindow) -> None:
     if window.measure.active:
         window.measure.end()
         return
+    window.place_on_face.end()
     window.docks["Measure"].show()
     window.docks["Measure"].raise_()
     window.measure.start()

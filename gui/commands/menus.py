@@ -16,32 +16,46 @@ if TYPE_CHECKING:
     from ..window import MainWindow
 
 PROJECT = ".solidtree"
+ORDER = {
+    "File": "new open recent examples - save save_as - import export export_diagram - quit",
+    "Edit": "undo redo - cut copy paste copy_script duplicate delete - rename dissolve link unlink Edit/Order - "
+    "toggle_visible show_hidden - select_all invert Edit/Select find - Edit/Parameters - evaluate cancel",
+    "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace - add_extrude add_revolve",
+    "Combine": "union difference intersection hull minkowski - group Combine/Change_to - "
+    "linear_array polar_array mirror",
+    "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
+    "measure clear_measurements Tools/Sections - tool_menu",
+    "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
+    "view_left - perspective grid ghosts colour_by_node sections - View/Style View/Theme - diagram panels",
+    "Help": "palette cheat_sheet shortcuts - about",
+}
+"""What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.
+
+A command that is not named here stands at the top, so that it is seen.
+"""
 
 
 def fill_menus(window: MainWindow) -> None:
     menus = window.actions_.fill_menu_bar(window.menuBar())
     file_menu = menus["File"]
-    after = window.actions_["save"]
     recent = QMenu("Open recent", file_menu)
     recent.setToolTipsVisible(True)
     recent.aboutToShow.connect(lambda: _fill_recent(window, recent))
     examples = QMenu("Examples", file_menu)
     examples.setIcon(icon("examples"))
     examples.aboutToShow.connect(lambda: _fill_examples(window, examples))
-    file_menu.insertMenu(after, recent)
-    file_menu.insertMenu(after, examples)
-    for name in ("save", "import", "quit"):
-        file_menu.insertSeparator(window.actions_[name])
-    for name in ("delete", "rename", "evaluate"):
-        menus["Edit"].insertSeparator(window.actions_[name])
-    for name in ("view_iso", "perspective"):
-        menus["View"].insertSeparator(window.actions_[name])
-    menus["Combine"].insertSeparator(window.actions_["linear_array"])
-    menus["Help"].insertSeparator(window.actions_["about"])
+    panels = QMenu("Panels", menus["View"])
+    panels.aboutToShow.connect(lambda: panels.addActions(window.docks_menu_entries))
+    entries = {place.replace(" ", "_"): menu.menuAction() for place, menu in menus.items()}
+    entries |= {"recent": recent.menuAction(), "examples": examples.menuAction(), "panels": panels.menuAction()}
+    for title, order in ORDER.items():
+        for name in order.split():
+            if name == "-":
+                menus[title].addSeparator()
+            else:
+                menus[title].addAction(entries.get(name) or window.actions_[name])  # moves it to the end
     for name in ARRANGE_SEPARATORS:
         menus["Tools/Arrange"].insertSeparator(window.actions_[name])
-    panels = menus["View"].addMenu("Panels")
-    panels.aboutToShow.connect(lambda: panels.addActions(window.docks_menu_entries))
 
 
 def _fill_recent(window: MainWindow, menu: QMenu) -> None:

@@ -77,6 +77,8 @@ def _at_face(window: MainWindow) -> None:
         point = tuple(round(value, 6) + 0.0 for value in pick.point)
         add(window, point, tuple(round(-value, 9) + 0.0 for value in pick.normal))
 
+    window.measure.end()
+    window.place_on_face.end()
     window.section_tool.ask_face(take)
 
 

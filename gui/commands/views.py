@@ -134,7 +134,7 @@ VIEW_COMMANDS: tuple[Command, ...] = (
     Command("palette", "Find a command …", "Help", lambda w: w.palette_.open(), shortcut="Ctrl+K", icon="palette",
             tip="Every command by a few of its letters"),
     Command("tool_menu", "Tools at the pointer", "Tools", lambda w: w.space_bar.open(), icon="tool_menu",
-            tip="A menu of what can be done with the selection; Space in the picture opens it"),
+            tip="A menu of what can be done with the selection; Space opens it, in the picture and in the tree"),
     Command("cheat_sheet", "Keys and mouse", "Help", _cheat_sheet, shortcut="F1; ?",
             icon="cheat_sheet", tip="All keys, and what the mouse does"),
     Command("shortcuts", "Keyboard shortcuts …", "Help", _shortcuts, icon="shortcuts",

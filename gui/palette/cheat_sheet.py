@@ -25,6 +25,21 @@ MOUSE = (
     ("Space", "Tools at the pointer"),
     ("Escape", "Take back, or select nothing"),
 )
+HANDLES = (
+    ("Digits", "Type the value, of a drag too"),
+    ("=", "Before a value that begins with a name"),
+    ("Tab", "The next number"),
+    ("Ctrl", "No steps, no snapping"),
+    ("Shift", "Finer steps"),
+    ("Enter", "Keep it"),
+    ("Escape", "As it was before"),
+)
+TREE = (
+    ("Drag", "Into an operation, or between rows"),
+    ("Ctrl+drag", "A copy"),
+    ("Enter, double click", "Rename"),
+    ("Escape", "Select nothing"),
+)
 FIELDS = (
     ("↑ ↓, wheel", "One step"),
     ("Shift, Ctrl with it", "Finer, coarser"),
@@ -41,7 +56,12 @@ class CheatSheet(QDialog):
         self.setObjectName("cheat_sheet")
         self.setWindowTitle("Keys and mouse")
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
-        blocks = [("In the picture", MOUSE), ("In number fields and sliders", FIELDS)]
+        blocks = [
+            ("In the picture", MOUSE),
+            ("With handles", HANDLES),
+            ("In the tree", TREE),
+            ("In number fields", FIELDS),
+        ]
         for menu in MENUS:
             rows = []
             for command in actions.commands():
@@ -75,7 +95,10 @@ class CheatSheet(QDialog):
         outer.setContentsMargins(0, 0, 0, 0)
         outer.addWidget(area)
         screen = parent.screen().availableSize()
-        self.resize(min(1020, screen.width() - 40), min(body.sizeHint().height() + 4, screen.height() - 80))
+        self.resize(
+            min(body.sizeHint().width() + 24, screen.width() - 40),
+            min(body.sizeHint().height() + 4, screen.height() - 80),
+        )
 
 
 def _block(title: str, rows: tuple[tuple[str, str], ...], parent: QWidget) -> QWidget:

@@ -85,6 +85,8 @@ class Sections(QWidget):
                 item.setToolTip(tip)
         self.hint = QLabel("A section opens the picture by a plane. Add one across an axis, or at a face.", self)
         self.hint.setProperty("muted", True)
+        self.hint.setContentsMargins(10, 4, 10, 4)
+        self.hint.setWordWrap(True)
         buttons = QWidget(self)
         buttons.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # the panel may be narrow
         bar = QHBoxLayout(buttons)
@@ -95,13 +97,12 @@ class Sections(QWidget):
                 bar.addWidget(_button(actions[name], self))
             else:
                 bar.addSpacing(10)
-        bar.addSpacing(10)
-        bar.addWidget(self.hint, 1000)  # all that is left, while it is shown
         bar.addStretch(1)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(buttons)
+        layout.addWidget(self.hint)
         layout.addWidget(self.table, 1)
         layout.addStretch(0)
         self._later = QTimer(self)

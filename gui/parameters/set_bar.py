@@ -127,6 +127,7 @@ class SetBar(QWidget):
         dialog.setWindowTitle(title)
         dialog.setLabelText("Name")
         dialog.setTextValue(text)
+        dialog.resize(360, dialog.sizeHint().height())  # the title is wider than the field
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.textValueSelected.connect(then)
         dialog.open()

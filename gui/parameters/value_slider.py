@@ -57,6 +57,10 @@ class ValueSlider(QSlider):
             self.setValue(place)
             self.stepping.emit(min(self.high, round(self.low + place * self._size, 9)))
 
+    def submit(self) -> None:
+        """End a run of steps that is under way."""
+        self._end()
+
     def _end(self) -> None:
         self._wheel.stop()
         self._dragging = False

@@ -215,7 +215,8 @@ def _frame(ids: tuple[str, ...], places: list[Place], local: bool) -> Frame:
             u, _, v = np.linalg.svd(rows)
             rows = u @ v
         rows = np.where(np.abs(rows) < 1e-15, 0.0, rows)
-    return Frame(ids, origins.mean(axis=0), rows, plain, local, len(places) == 1)
+    mirrored = bool(np.linalg.det(places[0].outer[:, :3]) < 0)
+    return Frame(ids, origins.mean(axis=0), rows, plain, local, len(places) == 1, mirrored)
 
 
 def _check(name: str, value: object) -> None:

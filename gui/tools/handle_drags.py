@@ -43,7 +43,8 @@ class Frame:
     """What the gizmo stands on: nodes, its `origin` (3,) and unit `axes` (rows, (3, 3)) in the world.
 
     `plain` says that the parent's axes are the world's, `local` that the axes are the node's own, `alone` that it is
-    one node, about whose own origin is turned and scaled.
+    one node, about whose own origin is turned and scaled. In a `mirrored` parent, turns go the other way round as seen
+    in the world.
     """
 
     ids: tuple[str, ...]
@@ -52,6 +53,7 @@ class Frame:
     plain: bool
     local: bool
     alone: bool
+    mirrored: bool = False
 
     @property
     def world(self) -> dict[str, Any]:
@@ -222,12 +224,13 @@ class TurnDrag(Drag):
         if angle is None:
             return
         self._last = unwrapped(angle, self._last)
-        new = round(self._last, 3) + 0.0 if pointer.free else stepped_angle(self._last, pointer.fine)
-        self.numbers[self.axis] = new
+        new = round(self._last, 3) if pointer.free else stepped_angle(self._last, pointer.fine)
+        backwards = self._frame.local and self._frame.mirrored
+        self.numbers[self.axis] = (-new if backwards else new) + 0.0
 
     def take(self, typed: Sequence[Number | None]) -> None:
         self.numbers = [0.0 if value is None else value for value in typed]
-        given = [i for i, value in enumerate(typed) if value is not None]
+        given = [i for i, value in enumerate(self.numbers) if value != 0.0]
         if len(given) > 1:
             raise Refusal("one turn goes about one axis; finish this one first")
         if given:

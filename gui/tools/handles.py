@@ -163,12 +163,27 @@ class Handles(Tool):
             case Qt.Key.Key_Escape:
                 self.cancel()
             case Qt.Key.Key_Return | Qt.Key.Key_Enter:
-                self.commit()
+                if self._readable():
+                    self.commit()
             case _ if self._entry.takes(event, self._held):
                 self._entry.key(event)
                 self._typed()
             case _:
                 return self._held
+        return True
+
+    def _readable(self) -> bool:
+        """Whether what is typed can be done as it stands; else it says why, and stays to be corrected."""
+        assert self._drag is not None and self._entry is not None
+        if not self._entry.typing:
+            return True
+        try:
+            self._drag.take(self._entry.numbers())
+            self._drag.call()
+        except Refusal as refusal:
+            self._say(str(refusal))
+            self.refused.emit(str(refusal))
+            return False
         return True
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:

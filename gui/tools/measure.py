@@ -6,11 +6,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QKeyEvent
 
 from ...model.editing.session import Session, State
 from ..view.viewport import Viewport
-from .tool import Tool
+from .click_tool import ClickTool
 
 if TYPE_CHECKING:
     from ...model.measuring.elements import Element
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from ...render.handles.snap_mark import SnapMark
     from ...render.viewer import Viewer
 
-SLACK = 4  # pixels the pointer may move in a click
 WORDS = {"vertex": "Corner", "midpoint": "Middle", "centre": "Centre", "edge": "Edge", "face": "Face"}
 FIRST = "Click a corner, an edge or a face to measure it; Escape ends this"
 SECOND = "Click another one for distance and angle, or press Escape to keep this one alone"
@@ -36,7 +35,7 @@ class Taken:
     stale: bool = False
 
 
-class MeasureTool(Tool):
+class MeasureTool(ClickTool):
     """`changed` tells that the list, or what is chosen in it, is another one; `said` what to do next, "" at the end."""
 
     changed = Signal()
@@ -44,16 +43,12 @@ class MeasureTool(Tool):
     ended = Signal()
 
     def __init__(self, session: Session, viewport: Viewport, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+        super().__init__(viewport, parent)
         self._session = session
-        self._viewport = viewport
-        self._viewer: Viewer | None = None
         self._snapper: Snapper | None = None
         self._snap_mark: SnapMark | None = None
         self._marks: DimensionMarks | None = None
         self._first: tuple[Element, dict[str, DisplayMesh]] | None = None
-        self._pressed: QMouseEvent | None = None
-        self._orbiting = False
         self.active = False
         self.taken: list[Taken] = []
         self.current: Taken | None = None
@@ -69,8 +64,8 @@ class MeasureTool(Tool):
         """Stop picking; the measurements stay."""
         if self.active:
             self.active = False
-            self._first = self._pressed = None
-            self._orbiting = False
+            self._first = None
+            self.drop_press()
             self._point_at(None)
             self._viewport.unsetCursor()
             self.said.emit("")
@@ -95,58 +90,21 @@ class MeasureTool(Tool):
         from ...render.handles.snap import Snapper
         from ...render.handles.snap_mark import SnapMark
 
-        self._viewer = viewer
+        super().attached(viewer)
         self._snapper, self._snap_mark, self._marks = Snapper(viewer), SnapMark(), DimensionMarks()
         viewer.overlay.add(self._marks)
         viewer.overlay.add(self._snap_mark)
 
     def closing(self) -> None:
         self.end()
-        self._viewer = self._snapper = self._snap_mark = self._marks = None
+        super().closing()
+        self._snapper = self._snap_mark = self._marks = None
 
-    def press(self, event: QMouseEvent) -> bool:
-        if not self.active or self._viewer is None:
-            return False
-        plain = event.modifiers() == Qt.KeyboardModifier.NoModifier
-        if event.button() != Qt.MouseButton.LeftButton or not plain:
-            return self._pressed is not None
-        if self._viewer.cube_hit(event.position().x(), event.position().y()):
-            return False
-        self._pressed = event.clone()
-        return True
+    def takes_clicks(self) -> bool:
+        return self.active
 
-    def move(self, event: QMouseEvent) -> bool:
-        if not self.active or self._viewer is None:
-            return False
-        navigation, position = self._viewport.navigation, event.position()
-        if self._pressed is None:
-            if event.buttons() or self._viewer.cube_hit(position.x(), position.y()):
-                self._point_at(None)
-                return False
-            self._point_at(self._find(position))
-            return True
-        if not self._orbiting and (position - self._pressed.position()).manhattanLength() > SLACK:
-            self._orbiting = True  # a drag turns the view, as it does without the tool
-            self._point_at(None)
-            if navigation is not None:
-                navigation.press(self._pressed)
-        if self._orbiting and navigation is not None:
-            navigation.move(event)
-        return True
-
-    def release(self, event: QMouseEvent) -> bool:
-        if self._pressed is None:
-            return False
-        if event.button() == Qt.MouseButton.LeftButton:
-            orbited, self._orbiting, self._pressed = self._orbiting, False, None
-            if not orbited:
-                self._click(event.position())
-            elif self._viewport.navigation is not None:
-                self._viewport.navigation.release(event)
-        return True
-
-    def double_click(self, event: QMouseEvent) -> bool:
-        return self.press(event)
+    def pointed(self, position: QPointF | None) -> None:
+        self._point_at(None if position is None else self._find(position))
 
     def key(self, event: QKeyEvent) -> bool:
         if not self.active or event.key() != Qt.Key.Key_Escape:
@@ -157,10 +115,6 @@ class MeasureTool(Tool):
         else:
             self.end()
         return True
-
-    def leave(self) -> None:
-        if self.active:
-            self._point_at(None)
 
     def shown(self) -> None:
         """What was measured on a mesh that is gone is out of date, and right again when that comes back."""
@@ -196,7 +150,7 @@ class MeasureTool(Tool):
             self.said.emit(f"{WORDS[snap.kind]}. {FIRST if self._first is None else SECOND}")
         self._draw()
 
-    def _click(self, position: QPointF) -> None:
+    def clicked(self, position: QPointF) -> None:
         from ...model.measuring.measurement import measurement
 
         picked = self._element(position)
@@ -231,7 +185,9 @@ class MeasureTool(Tool):
         mine = {root_id: meshes[root_id]} if root_id in meshes else {}
         if snap.kind not in ("edge", "face") or not mine:
             return point_element(snap.point, WORDS[snap.kind]), mine
-        root = next(root for root in resolve(self._session.document).solids if root.id == root_id)
+        root = next((root for root in resolve(self._session.view).solids if root.id == root_id), None)
+        if root is None:  # the picture is behind the document
+            return None
         if snap.kind == "edge":
             return edge_element(root, mine[root_id], snap.point), mine
         pick = self._snapper.pick(position.x(), position.y())

@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QKeyEvent
 
 from ...model.document.errors import Refusal
 from ...model.document.tree import find
 from ...model.editing.session import Session, State
 from ...model.operations.operations import OPERATIONS
 from ..view.viewport import Viewport
-from .tool import Tool
+from .click_tool import ClickTool
 
 if TYPE_CHECKING:
     from ...model.document.document import Document
@@ -28,8 +28,6 @@ if TYPE_CHECKING:
     from ...render.handles.snap_mark import SnapMark
     from ...render.viewer import Viewer
 
-SLACK = 4  # pixels the pointer may move in a click
-
 
 @dataclass(slots=True)
 class _Task:
@@ -41,7 +39,7 @@ class _Task:
     laying: Laying
 
 
-class PlaceOnFace(Tool):
+class PlaceOnFace(ClickTool):
     """Does nothing until `start`. `said` carries what to do next, "" at the end; `ended` comes once for each start."""
 
     said = Signal(str)
@@ -52,19 +50,15 @@ class PlaceOnFace(Tool):
         self, session: Session, viewport: Viewport, part: Callable[[str], Part | None], parent: QObject | None = None
     ) -> None:
         """`part` gives a selected node by itself, None where it has not been looked at."""
-        super().__init__(parent)
+        super().__init__(viewport, parent)
         self._session = session
-        self._viewport = viewport
         self._part = part
-        self._viewer: Viewer | None = None
         self._snap_mark: SnapMark | None = None
         self._face_mark: FaceMark | None = None
         self._task: _Task | None = None
         self._previewed: Document | None = None
         self._other_marks: list[Mark] = []
         """What else was drawn over the solids; it would only be in the way, and comes back at the end."""
-        self._pressed: QMouseEvent | None = None
-        self._orbiting = False
 
     @property
     def active(self) -> bool:
@@ -101,7 +95,7 @@ class PlaceOnFace(Tool):
     def end(self) -> None:
         """Stop, and take back what is previewed."""
         task, self._task = self._task, None
-        self._pressed, self._orbiting = None, False
+        self.drop_press()
         if task is None:
             return
         if self._session.document is self._previewed:
@@ -130,64 +124,29 @@ class PlaceOnFace(Tool):
         from ...render.handles.face_mark import FaceMark
         from ...render.handles.snap_mark import SnapMark
 
-        self._viewer = viewer
+        super().attached(viewer)
         self._snap_mark, self._face_mark = SnapMark(), FaceMark(viewer)
         viewer.overlay.add(self._snap_mark)
 
     def closing(self) -> None:
         self.end()
-        self._viewer = self._snap_mark = self._face_mark = None
+        super().closing()
+        self._snap_mark = self._face_mark = None
 
-    def press(self, event: QMouseEvent) -> bool:
-        if self._task is None or self._viewer is None or event.button() != Qt.MouseButton.LeftButton:
-            return self._pressed is not None
-        if self._viewer.cube_hit(event.position().x(), event.position().y()):
-            return False
-        self._pressed = event.clone()
-        return True
+    def takes_clicks(self) -> bool:
+        return self.active
 
-    def move(self, event: QMouseEvent) -> bool:
-        if self._task is None:
-            return False
-        navigation = self._viewport.navigation
-        if self._pressed is None:
-            if self._viewer is not None and self._viewer.cube_hit(event.position().x(), event.position().y()):
-                self._away()
-                return False
-            self._hover(event.position())
-            return True
-        if not self._orbiting and (event.position() - self._pressed.position()).manhattanLength() > SLACK:
-            self._orbiting = True  # a drag turns the view, as it does without the tool
-            if navigation is not None:
-                navigation.press(self._pressed)
-        if self._orbiting and navigation is not None:
-            navigation.move(event)
-        return True
-
-    def release(self, event: QMouseEvent) -> bool:
-        if self._pressed is None:
-            return False
-        if event.button() != Qt.MouseButton.LeftButton:
-            return True
-        orbited, self._orbiting, self._pressed = self._orbiting, False, None
-        if not orbited:
-            self._click(event.position())
-        elif self._viewport.navigation is not None:
-            self._viewport.navigation.release(event)
-        return True
-
-    def double_click(self, event: QMouseEvent) -> bool:
-        return self.press(event)
+    def pointed(self, position: QPointF | None) -> None:
+        if position is None:
+            self._away()
+        else:
+            self._hover(position)
 
     def key(self, event: QKeyEvent) -> bool:
         if self._task is None or event.key() != Qt.Key.Key_Escape:
             return False
         self.end()
         return True
-
-    def leave(self) -> None:
-        if self._task is not None:
-            self._away()
 
     def session_changed(self, before: State, after: State) -> None:
         task = self._task
@@ -224,7 +183,7 @@ class PlaceOnFace(Tool):
         except Refusal as refusal:
             self.refused.emit(str(refusal))
 
-    def _click(self, position: QPointF) -> None:
+    def clicked(self, position: QPointF) -> None:
         task = self._task
         if task is None:
             return

@@ -43,6 +43,8 @@ class _Drag:
     """What is typed instead: the plane's position, or by how much it is tilted."""
     last: float = 0.0
     changes: dict[str, Any] | None = None
+    shown: Document | None = None
+    """What is previewed."""
 
 
 class SectionTool(Tool):
@@ -114,6 +116,9 @@ class SectionTool(Tool):
         self._viewer = self._marks = None
 
     def session_changed(self, before: State, after: State) -> None:
+        drag = self._drag
+        if drag is not None and after.document is not drag.document and after.document is not drag.shown:
+            self._end()  # somebody else went on: what was dragged is no more what it was
         if before.document is not after.document:
             self._open_picture()
         if before.document.sections is not after.document.sections:
@@ -263,7 +268,8 @@ class SectionTool(Tool):
             drag.changes = {"point": _plain(drag.handle.origin), "normal": _plain(normal)}
         self._tell(drag, f"{value:g}")
         try:
-            self._session.preview(OPERATIONS["set_section"](drag.document, drag.section.name, **drag.changes))
+            drag.shown = OPERATIONS["set_section"](drag.document, drag.section.name, **drag.changes)
+            self._session.preview(drag.shown)
         except Refusal as refusal:
             self.refused.emit(str(refusal))
 

@@ -212,7 +212,8 @@ class Diagram(DiagramCanvas):
             return None, None, None
         item, document = self.shown.items[place], self._session.document
         if item.role == "result":
-            return None, index_of(document, item.node_id), (place, "before")
+            index = index_of(document, item.node_id) if item.node_id in {r.id for r in document.solids} else None
+            return None, index, (place, "before")
         if item.role != "leaf":
             return item.node_id, None, (place, "on")
         above = parent(document, item.node_id)

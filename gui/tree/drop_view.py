@@ -210,8 +210,9 @@ class DropView(QTreeView):
         """One step where the pointer is near the upper or the lower edge."""
         bar, y, height = self.verticalScrollBar(), self._pointer.y(), self.viewport().height()
         step = -1 if y < MARGIN else 1 if y > height - MARGIN else 0
-        if step:
-            bar.setValue(bar.value() + step * bar.singleStep())
+        before = bar.value()
+        bar.setValue(before + step * bar.singleStep())
+        if bar.value() != before:
             self._set_mark(None)  # the next move of the mouse tells where it is now
 
     def paintEvent(self, event: QPaintEvent) -> None:

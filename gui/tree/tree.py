@@ -216,6 +216,9 @@ class Tree(DropView):
         elif event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and not editing and not event.modifiers():
             self.rename_selected()
             event.accept()
+        elif event.key() == Qt.Key.Key_Space and not editing and not event.modifiers() and not event.isAutoRepeat():
+            self._actions.run("tool_menu")  # as in the picture
+            event.accept()
         else:
             super().keyPressEvent(event)
 

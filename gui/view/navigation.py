@@ -99,6 +99,10 @@ class Navigation(QObject):
             camera = pan(camera, step.x(), step.y(), self._viewer.size)
         self._viewer.set_camera(camera)
 
+    def stop(self) -> None:
+        """End a drag where it is."""
+        self._drag, self._button = Drag.NONE, Qt.MouseButton.NoButton
+
     def release(self, event: QMouseEvent) -> None:
         if event.button() != self._button:
             return

@@ -32,17 +32,28 @@ def find(document: Document, node_id: str) -> Node:
 
 def trail(document: Document, node_id: str) -> tuple[Node, ...]:
     """The nodes from the root down to the one with this id. Raises Refusal."""
+    return trails(document, [node_id])[node_id]
+
+
+def trails(document: Document, ids: Iterable[str]) -> dict[str, tuple[Node, ...]]:
+    """`trail` for many nodes in one go, in the order of the ids. Raises Refusal."""
+    wanted = list(ids)
+    missing = dict.fromkeys(wanted)
+    found: dict[str, tuple[Node, ...]] = {}
     for root in document.roots:
         above: list[Node] = []
         stack: list[tuple[Node, int]] = [(root, 0)]
-        while stack:
+        while stack and missing:
             node, depth = stack.pop()
             del above[depth:]
             above.append(node)
-            if node.id == node_id:
-                return tuple(above)
+            if node.id in missing:
+                del missing[node.id]
+                found[node.id] = tuple(above)
             stack += [(child, depth + 1) for child in reversed(node.children)]
-    raise Refusal(f"there is no node {node_id} in the document")
+    for node_id in missing:
+        raise Refusal(f"there is no node {node_id} in the document")
+    return {node_id: found[node_id] for node_id in wanted}
 
 
 def homes(document: Document, ids: Iterable[str]) -> dict[str, Node]:
@@ -168,6 +179,15 @@ def room(node: Node) -> int | None:
     return None if most is None else max(most - len(node.children), 0)
 
 
+def check_room(above: Node, count: int) -> None:
+    """Raises Refusal where the node takes less than so many operands more."""
+    left, most = room(above), type(above).operands[1]
+    if left is not None and count > left:
+        if isinstance(above, Instance) or not most:
+            raise Refusal(f"“{above.label}” holds no operands")
+        raise Refusal(f"“{above.label}” takes only {most} operand{'' if most == 1 else 's'}")
+
+
 def put(document: Document, nodes: Iterable[Node], parent_id: str | None = None, index: int | None = None) -> Document:
     """The document with the nodes as solids, or as operands of the parent, from `index` on (None: last).
 
@@ -181,12 +201,7 @@ def put(document: Document, nodes: Iterable[Node], parent_id: str | None = None,
 
     if parent_id is None:
         return document.with_(solids=family(document.solids))
-    above = find(document, parent_id)
-    left, most = room(above), type(above).operands[1]
-    if left is not None and len(new) > left:
-        if isinstance(above, Instance) or not most:
-            raise Refusal(f"“{above.label}” holds no operands")
-        raise Refusal(f"“{above.label}” takes only {most} operand{'' if most == 1 else 's'}")
+    check_room(find(document, parent_id), len(new))
     return change(document, parent_id, lambda node: node.with_(children=family(node.children)))
 
 

@@ -9,10 +9,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from ..document.nodes import Instance, Node
+from ..document.nodes import Difference, Instance, Intersection, Node
 from ..document.primitives import Box, Circle, Cone, Cylinder, Extrude, Halfspace, Rectangle, Revolve, Sphere, Torus
 from .chosen import chosen
 from .session import Session
+
+BOUNDING = (Difference, Intersection)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,10 +64,24 @@ def place_beside(session: Session) -> list[Any]:
     return []
 
 
+def _bounded_place(session: Session) -> list[Any]:
+    """Where a new half-space goes, likewise: only where it cuts something, never among the operands of a union."""
+    if len(session.selection) != 1:
+        return []
+    looked = chosen(session)
+    node, above = looked.nodes[0], looked.above[0]
+    if isinstance(node, BOUNDING):
+        return [node.id]
+    if isinstance(above, BOUNDING):
+        return [above.id, looked.places[0] + 1]
+    return []
+
+
 def _add(kind: Callable[[], Node]) -> Callable[[Session], None]:
     def run(session: Session) -> None:
         node = kind()
-        session.do("insert", node, *place_beside(session), label=f"Add {node.title.lower()}")
+        place = _bounded_place(session) if isinstance(node, Halfspace) else place_beside(session)
+        session.do("insert", node, *place, label=f"Add {node.title.lower()}")
 
     return run
 

@@ -7,6 +7,7 @@ from typing import Any
 
 from ..document.document import Document
 from ..document.expression import Expression
+from ..document.kind_names import function_name
 from ..document.nodes import Instance, Node, field_specs
 from ..document.placement import Affine, Move, Placement, Reflect, Scale, Step, Turn
 from ..document.table import to_table
@@ -15,17 +16,6 @@ from ..operations.parameters import parameter_arguments
 
 MAX_NESTING = 60
 """Python cannot read calls nested some 200 deep; such a tree is written as its table."""
-
-# The script API's name of each kind where it is not simply the kind in lower case.
-FUNCTION_NAMES = {
-    "LinearArray": "linear_array",
-    "PolarArray": "polar_array",
-    "ImportedMesh": "imported_mesh",
-}
-
-
-def function_name(kind: type[Node]) -> str:
-    return FUNCTION_NAMES.get(kind.__name__, kind.__name__.lower())
 
 
 def number_text(value: Any) -> str:

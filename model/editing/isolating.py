@@ -8,7 +8,7 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Node
 from ..document.placement import Placement
-from ..document.tree import outermost, trail, walk
+from ..document.tree import outermost, trails, walk
 from ..operations.fitting import steps_above, then
 
 
@@ -30,8 +30,7 @@ def isolated(document: Document, ids: Sequence[str]) -> Document:
     if fault:
         raise Refusal(fault)
     solids: list[Node] = []
-    for node_id in outermost(document, ids):
-        *way, node = trail(document, node_id)
+    for *way, node in trails(document, outermost(document, ids)).values():
         colour = node.colour or next((above.colour for above in reversed(way) if above.colour), None)
         if way:
             placement = then(Placement(), [*node.placement.steps, *steps_above(way)])

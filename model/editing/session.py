@@ -13,7 +13,7 @@ from ..operations.operations import OPERATIONS
 from . import echo
 from .isolating import isolated, isolation_fault
 
-DEPTH = 1000
+DEPTH = 10_000
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..document.kind_names import function_name
 from ..document.nodes import KINDS, Instance, Node
 from ..document.primitives import Extrude, Revolve
 from ..document.tree import index_of, parent, walk
 from ..operations.structure import OF_SOLIDS
 from .chosen import chosen
 from .commands import Command, chosen_fault, done
-from .echo import function_name
 from .session import Session
 
 JOINING = ("union", "difference", "intersection", "hull", "minkowski")
@@ -180,7 +180,7 @@ def _change(kind: str, title: str) -> Command:
     return Command(
         f"change_to_{kind}", title, "Combine/Change to",
         lambda s: done(s.do("change_kind", list(s.selection), kind, label=f"Change to {title.lower()}")),
-        _change_fault(kind), icon=kind, tip=f"Make the selected operations a {title.lower()} of the same operands",
+        _change_fault(kind), icon=kind, tip=f"{title} of the operands that the selected operations have",
         checked=_is(kind),
     )  # fmt: skip
 

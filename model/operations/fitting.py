@@ -9,7 +9,7 @@ from ..document.errors import Refusal
 from ..document.nodes import Mirror, Node
 from ..document.placement import Move, Placement, Reflect, Step
 from ..document.primitives import OUTLINES, Extrude, Revolve
-from ..document.tree import trail, unique_name
+from ..document.tree import unique_name
 
 
 def solid_name(document: Document, wanted: str) -> str:
@@ -53,9 +53,10 @@ def then(placement: Placement, steps: Iterable[Step]) -> Placement:
     return placement
 
 
-def carried(document: Document, node_id: str, new_way: tuple[Node, ...]) -> Node:
-    """The node with the placement that keeps it in its place in space below `new_way`, the nodes from the root down."""
-    *old_way, node = trail(document, node_id)
+def carried(document: Document, way: tuple[Node, ...], new_way: tuple[Node, ...]) -> Node:
+    """The last node of `way` with the placement that keeps it in its place in space below `new_way`; both are the nodes
+    from the root down."""
+    *old_way, node = way
     shared = 0
     while shared < min(len(old_way), len(new_way)) and old_way[shared] is new_way[shared]:
         shared += 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 from ..document.document import Document
@@ -69,7 +70,7 @@ def _unlinked(document: Document, node_id: str) -> Document:
 
 
 def insert_document(document: Document, other: Document) -> Document:
-    """Add all that another document holds; like-named parameters must agree."""
+    """Add all that another document holds; like-named parameters must agree, and sections come closed."""
     if not isinstance(other, Document):
         raise Refusal(f"a document is needed, not {other!r:.60}")
     known = {parameter.name: parameter for parameter in document.parameters}
@@ -77,6 +78,12 @@ def insert_document(document: Document, other: Document) -> Document:
         if known.setdefault(parameter.name, parameter) != parameter:
             raise Refusal(f"both documents have a parameter {parameter.name}, with different values; rename one")
     document = document.with_(parameters=tuple(known.values()))
+    sets, sections = [*document.sets], [*document.sections]
+    for one in other.sets:
+        sets.append(replace(one, name=unique_name(one.name, [two.name for two in sets])))
+    for one in other.sections:
+        sections.append(one.with_(name=unique_name(one.name, [two.name for two in sections]), active=False))
+    document = document.with_(sets=tuple(sets), sections=tuple(sections))
     declaring(document, [node.expressions() for node in walk(*other.roots)])
     roots = numbered(other.roots, next_number(document))
     renamed = {old.id: new.id for old, new in zip(other.roots, roots, strict=True)}

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from ..document.document import Document, Parameter
 from ..document.errors import Refusal
 from ..document.expression import Expression, expressions_in
 from ..document.nodes import Instance, Node
 from ..document.placement import Placement
-from ..document.tree import change_each, next_number, numbered, outermost, put, trail, walk
+from ..document.tree import change_each, next_number, numbered, outermost, put, trail, trails, walk
 from .fitting import check_fit, named_apart, steps_above, then
 from .linking import check_definitions, used_definitions
 from .parameters import declaring
@@ -22,8 +22,7 @@ def clip(document: Document, ids: Sequence[str]) -> Document:
     """
     roots = {root.id: root for root in document.definitions}
     nodes: list[Node] = []
-    for node_id in outermost(document, ids):
-        *way, node = trail(document, node_id)
+    for node_id, (*way, node) in trails(document, outermost(document, ids)).items():
         if node_id in roots:
             node = Instance(definition=node_id, name=node.label)
         elif not (way and way[0].id in roots):  # a definition has no one place in space
@@ -68,7 +67,7 @@ def paste(document: Document, other: Document, parent_id: str | None = None, ind
     declaring(document, [list(expressions_in([p.value])) for p in other.parameters])
     declaring(document, [node.expressions() for node in walk(*other.roots)])
     here = {root.id: root for root in document.definitions}
-    coming = [root for root in other.definitions if here.get(root.id) != root]
+    coming = _unlike(other.definitions, here)
     roots = numbered((*coming, *other.solids), next_number(document))
     renamed = {root.id: root.id for root in other.definitions}
     renamed |= {old.id: new.id for old, new in zip(coming, roots, strict=False)}
@@ -88,6 +87,15 @@ def paste(document: Document, other: Document, parent_id: str | None = None, ind
     elif way[0].id not in here:
         solids = [_carried_into(node, way) for node in solids]
     return put(document, solids, parent_id, index)
+
+
+def _unlike(definitions: Sequence[Node], here: Mapping[str, Node]) -> list[Node]:
+    """Those that are not in `here` already: an equal one is another too where an instance in it means another."""
+    unlike = {root.id for root in definitions if here.get(root.id) != root}
+    uses = {root.id: used_definitions(root) for root in definitions}
+    while more := {node_id for node_id, used in uses.items() if used & unlike} - unlike:
+        unlike |= more
+    return [root for root in definitions if root.id in unlike]
 
 
 def _carried_into(node: Node, way: Sequence[Node]) -> Node:

@@ -10,8 +10,8 @@ from ..document.nodes import Instance, Node
 from ..document.tree import (
     change,
     change_each,
+    check_room,
     find,
-    index_of,
     listed,
     next_number,
     numbered,
@@ -20,9 +20,10 @@ from ..document.tree import (
     position,
     put,
     trail,
+    trails,
     unique_name,
 )
-from .fitting import carried, check_fit, check_free, named_apart, solid_name
+from .fitting import carried, check_fit, check_free, named_apart
 from .linking import check_definitions
 
 
@@ -37,7 +38,7 @@ def relocate(document: Document, ids: Sequence[str], parent_id: str | None, inde
         raise Refusal("a node cannot be moved into itself")
     check_free(document, ids)
     above = way[-1] if way else None
-    nodes = [carried(document, node_id, way) for node_id in ids]
+    nodes = [carried(document, old_way, way) for old_way in trails(document, ids).values()]
     for node in nodes:
         check_fit(above, node)
     check_definitions(document, nodes, parent_id, known=False)
@@ -61,13 +62,14 @@ def copy_to(document: Document, ids: Sequence[str], parent_id: str | None, index
     way = () if parent_id is None else trail(document, parent_id)
     above = way[-1] if way else None
     roots = {root.id for root in document.definitions}
-    nodes = [Instance(definition=i) if i in roots else carried(document, i, way) for i in ids]
+    old_ways = trails(document, ids)
+    nodes = [Instance(definition=i) if i in roots else carried(document, old_ways[i], way) for i in ids]
     for node in nodes:
         check_fit(above, node)
     check_definitions(document, nodes, parent_id, known=False)
     copies = numbered(nodes, next_number(document))
     if above is None:
-        labels = [find(document, i).label for i in ids]
+        labels = [old_ways[i][-1].label for i in ids]
         copies = named_apart(document, [c.with_(name=label) for c, label in zip(copies, labels, strict=True)])
     return put(document, copies, parent_id, index)
 
@@ -79,7 +81,7 @@ def reorder(document: Document, ids: Sequence[str], by: int) -> Document:
     wanted = listed(ids)
     check_free(document, wanted)
     chosen = set(wanted)
-    above = [parent(document, node_id) for node_id in wanted]
+    above = [way[-2] if len(way) > 1 else None for way in trails(document, wanted).values()]
     if None in above:
         solids = _shifted(document.solids, chosen, by)
         document = document if solids is document.solids else document.with_(solids=solids)
@@ -120,10 +122,11 @@ def swap(document: Document, one_id: str, other_id: str) -> Document:
     if len(outermost(document, pair)) < 2:
         raise Refusal("two nodes change places, and neither may stand in the other")
     check_free(document, pair)
-    ways = [trail(document, node_id)[:-1] for node_id in pair]
+    ways = trails(document, pair)
     new: dict[str, Node] = {}
-    for node_id, way, stranger in zip(reversed(pair), ways, pair, strict=True):
-        node = carried(document, node_id, way)
+    for node_id, stranger in zip(reversed(pair), pair, strict=True):
+        way = ways[stranger][:-1]
+        node = carried(document, ways[node_id], way)
         check_fit(way[-1] if way else None, node)
         check_definitions(document, [node], way[-1].id if way else None, known=False)
         if not way:
@@ -135,13 +138,24 @@ def swap(document: Document, one_id: str, other_id: str) -> Document:
 
 def duplicate(document: Document, ids: Sequence[str]) -> Document:
     """Copy nodes, each beside its original."""
-    for node_id in outermost(document, ids):
-        node, above, place = find(document, node_id), parent(document, node_id), index_of(document, node_id) + 1
-        if any(root is node for root in document.definitions):
+    ways = trails(document, outermost(document, ids))
+    above: dict[str, list[Node]] = {}
+    for *over, node in ways.values():
+        if not over and any(root is node for root in document.definitions):
             raise Refusal(f"“{node.label}” is a definition; duplicate one of its instances")
-        check_fit(above, node)
-        (copy,) = numbered([node], next_number(document))
-        if above is None:
-            copy = copy.with_(name=solid_name(document, node.label))
-        document = put(document, (copy,), None if above is None else above.id, place)
-    return document
+        check_fit(over[-1] if over else None, node)
+        if over:
+            above.setdefault(over[-1].id, []).append(over[-1])
+    for same in above.values():
+        check_room(same[0], len(same))
+    copies = numbered([way[-1] for way in ways.values()], next_number(document))
+    beside = dict(zip(ways, copies, strict=True))
+    solids = [node_id for node_id, way in ways.items() if len(way) == 1]
+    beside |= zip(solids, named_apart(document, [beside[node_id] for node_id in solids]), strict=True)
+
+    def doubled(family: tuple[Node, ...]) -> tuple[Node, ...]:
+        return tuple(one for node in family for one in (node, beside.get(node.id)) if one is not None)
+
+    if solids:
+        document = document.with_(solids=doubled(document.solids))
+    return change_each(document, above, lambda node: node.with_(children=doubled(node.children)))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ..document.document import Document
 from ..document.errors import Refusal
+from ..document.kind_names import function_name
 from ..document.nodes import (
     KINDS,
     Broken,
@@ -34,10 +35,10 @@ from ..document.tree import (
     parent,
     put,
     trail,
+    trails,
     unique_name,
     walk,
 )
-from ..editing.echo import function_name
 from .fitting import carried, check_fit, check_free, solid_name, steps_of, then
 from .linking import check_definitions
 from .parameters import declaring
@@ -108,13 +109,13 @@ def combine(document: Document, kind: str, ids: Sequence[str], name: str = "") -
     ids = outermost(document, ids)
     if not ids:
         raise Refusal(f"select what the {wanted.title.lower()} should take")
-    for node_id in ids:
-        if isinstance(find(document, node_id), OUTLINES):
-            raise Refusal(f"an outline is flat; a {wanted.title.lower()} takes solids")
+    ways = trails(document, ids)
+    if any(isinstance(way[-1], OUTLINES) for way in ways.values()):
+        raise Refusal(f"an outline is flat; a {wanted.title.lower()} takes solids")
     check_free(document, ids)
-    first = trail(document, ids[0])
-    above = first[-2] if len(first) > 1 else None
-    nodes = [carried(document, node_id, first[:-1]) for node_id in ids]
+    *home, _ = ways[ids[0]]
+    above = home[-1] if home else None
+    nodes = [carried(document, way, tuple(home)) for way in ways.values()]
     check_definitions(document, nodes, ids[0], known=False)
     number = next_number(document)
     most = wanted.operands[1]

@@ -8,14 +8,13 @@ import time
 import traceback
 from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from ..document.document import Document, Section
 from ..document.errors import Refusal
-from ..document.table import to_table
 from ..solid.tessellation import DEFAULT_TOLERANCE
+from .job import Job, request_of
 from .messages import Cancelled, Died, Evaluated, Examined, Exported, LaneMessage, Progress, Started
 from .process import WorkerProcess, reason_of
 from .shown import Message, Part, Pictures, Shown
@@ -35,21 +34,6 @@ MOST_SURFACES = 64
 """Nodes by themselves whose surfaces are kept here."""
 
 
-@dataclass(slots=True)
-class _Job:
-    number: int
-    word: str
-    document: Document
-    tolerance: float
-    path: str = ""
-    solid: str | None = None
-    tries: int = 0
-    tolerances: tuple[float, ...] = ()
-    ids: tuple[str, ...] = ()
-    section: Section | None = None
-    supersedes: bool = True
-
-
 class Lane:
     """Evaluates and exports in a process of its own. `on_message` is called from the lane's thread.
 
@@ -61,14 +45,14 @@ class Lane:
         self._tell = on_message
         self._store_folder = store_folder
         self._process: WorkerProcess | None = None
-        self._current: _Job | None = None
+        self._current: Job | None = None
         self._bell: Connection | None = None
         self._ring: Connection | None = None
         self._lock = threading.Lock()
-        self._evaluation: _Job | None = None
-        self._exports: list[_Job] = []
-        self._examination: _Job | None = None
-        self._preparation: _Job | None = None
+        self._evaluation: Job | None = None
+        self._exports: list[Job] = []
+        self._examination: Job | None = None
+        self._preparation: Job | None = None
         self._surfaces: OrderedDict[bytes, DisplayMesh | None] = OrderedDict()
         self._cancelled = False
         self._killed = False
@@ -105,7 +89,7 @@ class Lane:
         """
         with self._lock:
             self._number += 1
-            self._evaluation = _Job(self._number, "evaluate", document, tolerance, supersedes=supersedes)
+            self._evaluation = Job(self._number, "evaluate", document, tolerance, supersedes=supersedes)
             number = self._number
         self._wake()
         return number
@@ -121,7 +105,7 @@ class Lane:
         """Ask for a mesh file of all visible solids, or of the one with this name; of a section for its outlines."""
         with self._lock:
             self._number += 1
-            self._exports.append(_Job(self._number, "export", document, tolerance, str(path), solid, section=section))
+            self._exports.append(Job(self._number, "export", document, tolerance, str(path), solid, section=section))
             number = self._number
         self._wake()
         return number
@@ -133,7 +117,7 @@ class Lane:
         """
         with self._lock:
             self._number += 1
-            self._examination = _Job(self._number, "examine", document, tolerance, ids=ids)
+            self._examination = Job(self._number, "examine", document, tolerance, ids=ids)
             number = self._number
         self._wake()
         return number
@@ -142,7 +126,7 @@ class Lane:
         """Get ready for changes of one operand, while nothing else is asked for: the rest is cut without it."""
         with self._lock:
             self._number += 1
-            self._preparation = _Job(
+            self._preparation = Job(
                 self._number, "prepare", document, tolerances[0], solid=node_id, tolerances=tolerances
             )
         self._wake()
@@ -187,7 +171,7 @@ class Lane:
         self._bell, self._ring = context.Pipe(duplex=False)
         self._process = worker = WorkerProcess(context, str(self._store_folder))
         worker.start()
-        job: _Job | None = None
+        job: Job | None = None
         while not self._closed:
             if job is None:
                 job = self._next()
@@ -207,10 +191,10 @@ class Lane:
                 job = None
         worker.end()
 
-    def _next(self) -> _Job | None:
+    def _next(self) -> Job | None:
         with self._lock:
             self._cancelled = False
-            job: _Job | None = None
+            job: Job | None = None
             if self._evaluation is not None:
                 job, self._evaluation = self._evaluation, None
             elif self._exports:
@@ -225,33 +209,25 @@ class Lane:
             self._process.restart()
         return job
 
-    def _answered_from_pictures(self, job: _Job) -> bool:
+    def _answered_from_pictures(self, job: Job) -> bool:
         start = time.perf_counter()
         if job.word != "evaluate" or not self._pictures.complete(job.document, job.tolerance):
             return False
         self._tell_shown(job, start, 0)
         return True
 
-    def _tell_shown(self, job: _Job, start: float, evaluations: int) -> None:
+    def _tell_shown(self, job: Job, start: float, evaluations: int) -> None:
         shown = self._pictures.shown(job.document, job.tolerance)
         self._tell(Evaluated(job.number, shown, time.perf_counter() - start, evaluations))
 
-    def _sent(self, job: _Job) -> _Job:
-        table = to_table(job.document)
-        if job.word == "evaluate":
-            request: tuple[Any, ...] = ("evaluate", job.number, table, job.tolerance, self._pictures.keys())
-        elif job.word == "examine":
-            request = ("examine", job.number, table, job.tolerance, job.ids, set(self._surfaces))
-        elif job.word == "prepare":
-            request = ("prepare", job.number, table, job.tolerances, job.solid)
-        else:
-            request = ("export", job.number, table, job.path, job.tolerance, job.solid, job.section)
+    def _sent(self, job: Job) -> Job:
+        request = request_of(job, self._pictures.keys(), set(self._surfaces))
         assert self._process is not None and self._process.connection is not None
         with contextlib.suppress(OSError):  # a worker that is gone is noticed when its answer is read
             self._process.connection.send(request)
         return job
 
-    def _await(self, job: _Job | None) -> _Job | None:
+    def _await(self, job: Job | None) -> Job | None:
         """Until the job is answered (None), must be tried again (the job), or there is something to begin."""
         from multiprocessing.connection import wait
 
@@ -284,7 +260,7 @@ class Lane:
                     return None
         return None
 
-    def _given_up(self, job: _Job) -> bool:
+    def _given_up(self, job: Job) -> bool:
         """Whether a newer evaluation takes the place of what is at work."""
         newer = self._evaluation
         return newer is not None and job.word != "export" and (newer.supersedes or job.supersedes)
@@ -295,13 +271,13 @@ class Lane:
         while not self._closed and self._evaluation is None and not self._exports:
             self._bell.recv()
 
-    def _after_cancel(self, job: _Job) -> None:
+    def _after_cancel(self, job: Job) -> None:
         assert self._process is not None
         self._killed = False
         self._process.restart()
         self._tell(Cancelled(job.number))
 
-    def _after_death(self, job: _Job | None) -> _Job | None:
+    def _after_death(self, job: Job | None) -> Job | None:
         assert self._process is not None
         reason = reason_of(self._process.exit_code())
         self._deaths += 1
@@ -322,7 +298,7 @@ class Lane:
         self._tell(Died(job.number, reason, given_up))
         return None if given_up else job
 
-    def _handled(self, message: tuple[Any, ...], job: _Job | None) -> bool:
+    def _handled(self, message: tuple[Any, ...], job: Job | None) -> bool:
         """Whether the message ends the job."""
         match message:
             case ("started", pid):
@@ -363,7 +339,7 @@ class Lane:
             self._surfaces.popitem(last=False)
         return parts
 
-    def _refuse(self, job: _Job, reason: str) -> None:
+    def _refuse(self, job: Job, reason: str) -> None:
         if job.word == "export":
             self._tell(Exported(job.number, job.path, reason))
         elif job.word == "evaluate":

@@ -118,10 +118,9 @@ class _Worker:
         above = trail(document, node_id)[:-1]
         if any(isinstance(node, Difference) for node in above):
             without = change(document, node_id, lambda node: None)
-            place = next(i for i, root in enumerate(without.solids) if root.id == above[0].id)
-            root = self._resolver.resolve(without).solids[place]
-            for tolerance in tolerances:
-                self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, len(table["nodes"])))
+            for root in self._resolver.resolve(without).solids:  # none of them where a definition holds the node
+                for tolerance in tolerances if root.id == above[0].id else ():
+                    self._evaluator.evaluate(root, tolerance, _Progress(self._connection, number, len(table["nodes"])))
         return "prepared", number
 
     def _export(

@@ -12,8 +12,9 @@ from itertools import accumulate
 from pathlib import Path
 
 from ...model.document.document import Document
+from ...model.document.kind_names import function_name
 from ...model.document.nodes import Instance, Node
-from ...model.editing.echo import function_name, number_text
+from ...model.editing.echo import number_text
 from .kind_pictures import HEIGHT, RADIUS, SYMBOLS, WIDTH
 from .tidy_tree import TidyTree
 

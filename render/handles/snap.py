@@ -53,7 +53,9 @@ class Snapper:
         self._viewer = viewer
         self._picker = Picker()
         self._left_out: frozenset[str] = frozenset()
+        self._known: dict[str, _Target] = {}
         self._targets: dict[str, _Target] = {}
+        """Those of `_known` of which anything is left."""
 
     def find(
         self, x: float, y: float, leave_out: Collection[str] = (), meshes: Mapping[str, DisplayMesh] | None = None
@@ -97,13 +99,12 @@ class Snapper:
     def _follow(self, leave_out: Collection[str], meshes: Mapping[str, DisplayMesh] | None) -> None:
         wanted = self._viewer.scene.meshes if meshes is None else meshes
         left_out = frozenset(leave_out)
-        old = self._targets if left_out == self._left_out else {}
-        self._left_out, self._targets = left_out, {}
+        old = self._known if left_out == self._left_out else {}
+        self._left_out, self._known = left_out, {}
         for solid_id, mesh in wanted.items():
             known = old.get(solid_id)
-            target = known if known is not None and known.mesh is mesh else _Target(mesh, left_out)
-            if len(target.seen.triangles):
-                self._targets[solid_id] = target
+            self._known[solid_id] = known if known is not None and known.mesh is mesh else _Target(mesh, left_out)
+        self._targets = {solid_id: target for solid_id, target in self._known.items() if len(target.seen.triangles)}
 
     def _first(self, origin: Floats, direction: Floats) -> Pick | None:
         """The first face on a ray; what a section takes away is not there, and its cut faces are."""
