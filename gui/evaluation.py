@@ -20,7 +20,8 @@ if TYPE_CHECKING:
 PATIENCE = 100  # milliseconds before the window says that it is busy
 IDLE = 250  # milliseconds of rest before the worker gets ready for a drag of what is selected
 MOST_EXAMINED = 64  # selected nodes that are looked at by themselves
-PREVIEW = 4.0  # how much coarser the tolerance is while a value is being dragged
+PREVIEW = 4.0  # how much coarser the tolerance is while a value is being dragged, where the worker is not quick
+QUICK = 0.02  # seconds that the worker may need for a picture of a drag
 
 
 def new_lane(on_message: Callable[[LaneMessage], None]) -> Lane:
@@ -69,6 +70,7 @@ class Evaluation(QObject):
         self._request: int | None = None
         self._drag: int | None = None
         """The first request of the drag under way: answers from there on are shown, though newer ones are asked for."""
+        self._quick = False  # whether the worker has been so with this document lately
         self._is_busy = False
         self._exports: set[int] = set()
         self.latest: Shown | None = None
@@ -156,10 +158,12 @@ class Evaluation(QObject):
         section: Section | None = None,
     ) -> None:
         """Write a mesh file, or of a section its outlines; `exported` tells when that is done."""
+        from ..model.solid.tessellation import DEFAULT_TOLERANCE
+
         if self.jobs is None:
             self.jobs = self._make_lane(self._told_of_job.emit)
             self.jobs.start()
-        self._exports.add(self.jobs.export(document, path, tolerance or self._tolerance(), solid, section))
+        self._exports.add(self.jobs.export(document, path, tolerance or DEFAULT_TOLERANCE, solid, section))
         self._patience.start()
 
     def close(self) -> None:
@@ -204,7 +208,8 @@ class Evaluation(QObject):
     def _tolerance(self) -> float:
         from ..model.solid.tessellation import DEFAULT_TOLERANCE
 
-        return PREVIEW * DEFAULT_TOLERANCE if self._session.previewing else DEFAULT_TOLERANCE
+        coarse = self._session.previewing and not self._quick
+        return PREVIEW * DEFAULT_TOLERANCE if coarse else DEFAULT_TOLERANCE
 
     def _ask(self) -> None:
         if self.lane is None:
@@ -231,6 +236,9 @@ class Evaluation(QObject):
                     self._request = None
                 elif self._drag is None or message.request < self._drag:
                     return  # stale: a newer document has been asked for
+                if message.evaluations:  # else it was kept from before, which says nothing
+                    # A drag that has become coarse stays so: to and fro would flicker.
+                    self._quick = message.seconds < QUICK and (self._quick or self._drag is None)
                 self._rest()
                 self.latest = message.shown
                 self.shown.emit(message.shown, message.seconds)

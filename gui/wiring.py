@@ -82,9 +82,12 @@ def _measuring(window: MainWindow) -> None:
         window.actions_.refresh()
 
     tool.changed.connect(follow)
+    tool.began.connect(lambda: window.handles.set_hidden(True))
+    tool.ended.connect(lambda: window.handles.set_hidden(False))
     tool.ended.connect(window.actions_.refresh)
     panel.chosen.connect(tool.choose)
     panel.removed.connect(tool.remove)
     panel.cleared.connect(tool.clear)
     panel.start_asked.connect(lambda: window.actions_.run("measure"))
     window.files.opened.connect(tool.clear)
+    window.files.opened.connect(tool.end)

@@ -22,7 +22,7 @@ def begin():
     viewer = Viewer()
     viewer.resize(640, 480)
 
-    def make(others, node, view="iso"):
+    def make(others, node, view="iso", cuts=False):
         document = document_of(others, node)
         evaluation = evaluate_document(document)
         viewer.show({result.root.id: (evaluation.display(result), None) for result in evaluation.solids})
@@ -32,7 +32,7 @@ def begin():
         own = document.solids[1]
         place = places_of(resolved.solids, [own.id])[own.id][0]
         bare = evaluate_document(document_of(place.node.with_(placement=Placement())))
-        laying = Laying(viewer, place, own.placement, bare.display(bare.solids[0]), resolved.values)
+        laying = Laying(viewer, place, own.placement, bare.display(bare.solids[0]), resolved.values, cuts)
 
         def pixel(point):
             x, y, _ = project(viewer.camera, [point], viewer.size)[0]
@@ -89,3 +89,13 @@ def test_a_placement_s_expressions_stay(begin):
     assert laid.placement.symbolic()
     low, _ = box_of(part, laid)
     assert low[0] == pytest.approx(60, abs=1e-4)
+
+
+def test_what_is_subtracted_goes_into_the_face(begin):
+    laying, pixel, drill = begin(box(40, 40, 40), cylinder(3, 12, segments=64).at(80, 0, 0), cuts=True)
+    laid = laying.at(*pixel((20, 0, 15)))  # on the front side
+    low, high = box_of(drill, laid)
+    assert low[1] == pytest.approx(-0.01, abs=1e-6) and high[1] == pytest.approx(11.99, abs=1e-6)
+    drilled = box(40, 40, 40) - drill.with_(placement=laid.placement)
+    section = measure(drill).volume / 12
+    assert measure(drilled).volume == pytest.approx(40**3 - 11.99 * section, rel=1e-9)

@@ -9,7 +9,9 @@ import pytest
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtWidgets import QAbstractButton, QLineEdit
 
-from solidtree.model.script import box, document_of, sphere
+from solidtree.model.document.tree import walk
+from solidtree.model.operations.operations import OPERATIONS
+from solidtree.model.script import box, cylinder, document_of, sphere, union
 
 pytest_plugins = ["window_driver"]
 
@@ -106,3 +108,26 @@ def test_a_newer_document_is_shown_though_the_old_one_was_heavy(driver):
     driver.session.do("insert", box(2))
     driver.settle()
     assert set(driver.window.evaluation.latest.solids) == {root.id for root in driver.document.solids}
+
+
+def test_previews_are_as_fine_as_the_solid_where_that_is_quick_and_coarser_where_it_is_not(make_window):
+    def triangles(driver, document) -> tuple[int, int]:
+        """Of the first solid at rest, and while its first leaf is on its way."""
+        driver.open(document)
+        leaf = next(node for node in walk(*document.solids) if not node.children)
+        counts = []
+        for now in (document, OPERATIONS["move"](document, [leaf.id], 0.1)):
+            driver.session.preview(now)
+            driver.settle()
+            counts.append(len(driver.window.evaluation.latest.solids[document.solids[0].id].mesh.triangles))
+        driver.session.cancel()
+        driver.settle()
+        return counts[0], counts[1]
+
+    driver = make_window()
+    driver.open(document_of(box(1)))  # the worker has started
+    at_rest, moving = triangles(driver, document_of(cylinder(5, 10)))
+    assert moving == at_rest
+    drills = [cylinder(2, 12).at(5 * (i % 20), 5 * (i // 20), -1) for i in range(400)]
+    at_rest, moving = triangles(driver, document_of(box(100, 100, 10) - union(*drills)))
+    assert moving < 0.8 * at_rest

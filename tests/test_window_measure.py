@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from handle_hand import Hand
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu, QToolButton
@@ -177,3 +178,14 @@ def test_another_document_has_no_measurements_yet(plate):
     assert plate.window.measure.taken
     plate.open(document_of(box(10)))
     assert not plate.window.measure.taken
+
+
+def test_handles_are_out_of_the_way_while_measuring(plate):
+    plate.session.select([plate.document.solids[0].id])
+    plate.settle()
+    hand = Hand(plate)
+    assert "move x" in hand.names
+    plate.keys("Shift+M", plate.window.viewport)
+    assert plate.window.measure.active and not hand.names
+    plate.window.files.opened.emit()  # another document does not go on being measured
+    assert not plate.window.measure.active and "move x" in hand.names

@@ -11,12 +11,13 @@ from PySide6.QtGui import QKeyEvent, QMouseEvent
 from ...model.document.document import Document, parameter_values
 from ...model.document.errors import Refusal
 from ...model.document.expression import resolved
+from ...model.editing.session import State
 from ...model.operations.operations import OPERATIONS
 from .entry import Entry
 from .tool import Tool
 
 if TYPE_CHECKING:
-    from ...model.editing.session import Session, State
+    from ...model.editing.session import Session
     from ...render.viewer import Viewer
     from ..settings import Settings
     from ..view.viewport import Viewport
@@ -52,6 +53,7 @@ class Handles(Tool):
         """Whether the mouse drags; else the numbers are typed alone."""
         self._name = ""
         self._own = False
+        self._hidden = False
         self._pointer: tuple[float, float, Qt.KeyboardModifier] | None = None
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
@@ -81,6 +83,13 @@ class Handles(Tool):
 
     def refresh(self) -> None:
         """Something else is in the picture now."""
+        self._show()
+
+    def set_hidden(self, hidden: bool) -> None:
+        """Take the handles out of the picture, while another tool has the clicks."""
+        self._hidden = hidden
+        if hidden:
+            self.cancel()
         self._show()
 
     def set_snapping(self, snapping: bool) -> None:
@@ -174,12 +183,14 @@ class Handles(Tool):
 
     def _readable(self) -> bool:
         """Whether what is typed can be done as it stands; else it says why, and stays to be corrected."""
-        assert self._drag is not None and self._entry is not None
+        assert self._drag is not None and self._entry is not None and self._start is not None
         if not self._entry.typing:
             return True
         try:
             self._drag.take(self._entry.numbers())
-            self._drag.call()
+            call = self._drag.call()
+            if call is not None:
+                OPERATIONS[call[0]](self._start, *call[1], **call[2])
         except Refusal as refusal:
             self._say(str(refusal))
             self.refused.emit(str(refusal))
@@ -322,7 +333,8 @@ class Handles(Tool):
 
     def _show(self) -> None:
         if self._picture is not None:
-            self._picture.show(self._session.state, self.mode, self.local, self._drag is not None)
+            state = State(self._session.document, () if self._hidden else self._session.selection)
+            self._picture.show(state, self.mode, self.local, self._drag is not None)
             self._changed()
 
     def _hover(self, x: float, y: float) -> bool:

@@ -40,6 +40,7 @@ class MeasureTool(ClickTool):
 
     changed = Signal()
     said = Signal(str)
+    began = Signal()
     ended = Signal()
 
     def __init__(self, session: Session, viewport: Viewport, parent: QObject | None = None) -> None:
@@ -56,6 +57,7 @@ class MeasureTool(ClickTool):
     def start(self) -> None:
         if not self.active:
             self.active = True
+            self.began.emit()
             self._viewport.setCursor(Qt.CursorShape.CrossCursor)
             self._viewport.setFocus()
             self.said.emit(FIRST)

@@ -37,6 +37,7 @@ class _Task:
     node_id: str
     label: str
     laying: Laying
+    cuts: bool
 
 
 class PlaceOnFace(ClickTool):
@@ -68,6 +69,7 @@ class PlaceOnFace(ClickTool):
         """Begin to lay the selected node. Raises Refusal."""
         from ...model.document.resolve import resolve
         from ...model.solid.places import places_of
+        from ...model.solid.roles import Role, role_of
         from ...render.handles.laying import Laying
 
         self.end()
@@ -81,8 +83,9 @@ class PlaceOnFace(ClickTool):
         if part is None or part.mesh is None or part.measures is None or not len(part.mesh.triangles) or not places:
             raise Refusal(f"“{label}” has no surface of its own that could lie on a face")
         node = find(document, node_id)
-        laying = Laying(self._viewer, places[0], node.placement, part.mesh, resolved.values)
-        self._task = _Task(document, node_id, label, laying)
+        cuts = role_of(resolved.solids, places[0].path) is Role.SUBTRACTED
+        laying = Laying(self._viewer, places[0], node.placement, part.mesh, resolved.values, cuts)
+        self._task = _Task(document, node_id, label, laying, cuts)
         overlay = self._viewer.overlay
         self._other_marks = [mark for mark in overlay.marks if mark is not self._snap_mark]
         for mark in self._other_marks:
@@ -113,10 +116,11 @@ class PlaceOnFace(ClickTool):
     def _say(self) -> None:
         assert self._task is not None
         if self._task.laying.chosen:
-            self.said.emit(f"Click the face that “{self._task.label}” should lie on; Escape ends this")
+            words = "should cut into" if self._task.cuts else "should lie on"
         else:
-            words = "should stand on, or first the face of its own to put down; Escape ends this"
-            self.said.emit(f"Click the face that “{self._task.label}” {words}")
+            does = "should cut into" if self._task.cuts else "should stand on"
+            words = f"{does}, or first the face of its own to put there"
+        self.said.emit(f"Click the face that “{self._task.label}” {words}; Escape ends this")
 
     # Events.
 

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 Floats = NDArray[np.float64]
 GROUND = np.array([0.0, 0.0, 1.0])
+OVERLAP = 0.01  # millimetres that what cuts stands out of the face, so that rounding leaves no skin over the hole
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -43,13 +44,20 @@ class Laying:
     """
 
     def __init__(
-        self, viewer: Viewer, place: Place, placement: Placement, mesh: DisplayMesh, values: Mapping[str, float]
+        self,
+        viewer: Viewer,
+        place: Place,
+        placement: Placement,
+        mesh: DisplayMesh,
+        values: Mapping[str, float],
+        cuts: bool = False,
     ) -> None:
         """`place` is where the resolved node stands, `placement` its own, which may hold expressions; `mesh` is its
-        surface in its own axes."""
+        surface in its own axes. What `cuts` goes into the faces that it is laid on, as a drill does."""
         self._viewer = viewer
         self._whole, self._others = Snapper(viewer), Snapper(viewer)  # each keeps the meshes of its own last call
         self._place, self._placement, self._values = place, placement, values
+        self._cuts = cuts
         self._digits = digits_of(mesh)
         self._face = resting_face(mesh, place.matrix)
         self.meshes: Mapping[str, DisplayMesh] = viewer.scene.meshes
@@ -68,7 +76,8 @@ class Laying:
 
     def choose(self, pick: Pick) -> None:
         """Let this face of the node's own be the one that comes to lie on another one."""
-        self._face, self.chosen = _centre_and_normal(pick, self._whole.mesh(pick.solid_id)), True
+        centre, normal = _centre_and_normal(pick, self._whole.mesh(pick.solid_id))
+        self._face, self.chosen = (centre, -normal if pick.subtracted else normal), True
 
     def own_face(self, pick: Pick) -> tuple[DisplayMesh, Face | None]:
         """The flat face that `own` gave, and its mesh; no face where it is curved."""
@@ -105,6 +114,8 @@ class Laying:
         return Laid(self._on(snap.point, -normal if away else normal), snap)
 
     def _on(self, point: ArrayLike, normal: Floats) -> Placement:
+        if self._cuts:
+            point, normal = np.asarray(point, float) + OVERLAP * normal, -normal
         matrix = laid(*self._face, point, normal)
         return followed_in_world(self._placement, self._place.outer, matrix, self._values, self._digits)
 
