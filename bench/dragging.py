@@ -54,6 +54,7 @@ def plate():
 
 def dragged(application: QCoreApplication) -> tuple[float, float, list[float], tuple[int, int], object, object]:
     """Pictures and fresh meshes a second, waits in seconds, and size, mesh and camera of the window at the end."""
+    from solidtree.gui.application import spare_collections
     from solidtree.gui.settings import Settings
     from solidtree.gui.window import MainWindow
     from solidtree.model.editing.session import Session
@@ -78,6 +79,7 @@ def dragged(application: QCoreApplication) -> tuple[float, float, list[float], t
     until(lambda: viewport.viewer is not None and bool(viewport.viewer.scene.meshes) and not window.evaluation.waiting)
     viewer = viewport.viewer
     assert viewer is not None
+    spare_collections()
     (root,) = document.solids
     hole = root.children[56]
     window.session.select([hole.id])

@@ -104,6 +104,10 @@ class SectionTool(Tool):
         self._take_face = take
         self.said.emit("Click the face to cut at; Escape ends this")
 
+    @property
+    def dragging(self) -> bool:
+        return self._drag is not None
+
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.handle_marks import HandleMarks
 

@@ -18,6 +18,11 @@ class Tool(QObject):
     A tool that takes a press gets all moves and the release up to the end of the drag.
     """
 
+    @property
+    def dragging(self) -> bool:
+        """Whether something is on its way with the pointer, so that pictures should come quickly."""
+        return False
+
     def attached(self, viewer: Viewer) -> None:
         """The viewer is there; marks can be added to its overlay. Comes once."""
 

@@ -114,6 +114,7 @@ class Viewport(Canvas):
         if self.viewer is None:
             return
         dragging = self.navigation is not None and self.navigation.dragging
+        dragging = dragging or (self._holder is not None and self._holder.dragging)
         self.viewer.set_moving(dragging or self._session.previewing)
         if self.viewer.needs_render:
             self.draw_soon()
