@@ -199,7 +199,7 @@ class MainWindow(QMainWindow):
             )
         self.tree.nodes.set_problems(shown.problems)
         self.problems.set_problems(shown.problems)
-        self.status.set_problem(next((problem.message for problem in shown.problems if problem.error), ""))
+        self.status.set_problem(next((problem.sentence for problem in shown.problems if problem.error), ""))
         self.status.set_time(seconds)
         self.measure_selection()
         if not self.session.previewing:

@@ -76,6 +76,12 @@ def test_what_has_no_end_says_so(node):
     assert any("without end" in problem.message or "half-spaces" in problem.message for problem in entry.problems)
 
 
+def test_of_a_union_the_rest_is_seen_and_the_half_space_is_blamed():
+    entry = evaluated(union(box(2), halfspace(), sphere(1).at(9)).at(5))
+    assert entry.solid is None and [problem.place for problem in entry.problems] == [(1,)]
+    assert entry.rest.bounding_box() == pytest.approx((5, -1, -1, 15, 2, 2), abs=0.02)
+
+
 def test_two_half_spaces_that_exclude_each_other_are_empty():
     entry = evaluated(intersection(halfspace((0, 0, 1), (0, 0, 5)), halfspace((0, 0, -1))))
     assert entry.solid is not None and entry.solid.is_empty()

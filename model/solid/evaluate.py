@@ -113,7 +113,7 @@ class Evaluator:
         if box is not None and not seen.is_empty():
             low, high = np.array(seen.bounding_box()).reshape(2, 3)
             if max(-low.min(), high.max()) > 0.75 * box[1, 0]:
-                return Entry(entry.key, None, (*entry.problems, Problem((), ENDLESS)))
+                return self._without_end(root, tolerance, entry)
         try:
             seen = sound(moved(seen, root.placement.matrix()), root) if root.placement.steps else seen
         except (NoSolid, Refusal) as fault:
@@ -121,6 +121,16 @@ class Evaluator:
         if entry.solid is None:
             return Entry(entry.key, None, entry.problems, seen)
         return Entry(entry.key, seen, entry.problems)
+
+    def _without_end(self, root: Node, tolerance: float, entry: Entry) -> Entry:
+        """The entry of a root that goes on for ever; of a union the operands that do are to blame, the rest is seen."""
+        endless = [self.ends.endless(child) for child in root.children]
+        if not isinstance(root, Union) or all(endless):
+            return Entry(entry.key, None, (*entry.problems, Problem((), ENDLESS)))
+        blamed = [Problem((place,), ENDLESS) for place, without in enumerate(endless) if without]
+        kept = tuple(child for child, without in zip(root.children, endless, strict=True) if not without)
+        rest = self._evaluated(root.with_(children=kept), tolerance)
+        return Entry(entry.key, None, (*entry.problems, *blamed), rest.seen)
 
     def _reach(self, root: Node, tolerance: float) -> float:
         """How far from the origin a solid that half-spaces bound can have a vertex, in the root's axes, with room."""

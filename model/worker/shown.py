@@ -24,6 +24,11 @@ class Message:
     message: str
     error: bool
 
+    @property
+    def sentence(self) -> str:
+        """The message with the node's name before it, unless it names that itself."""
+        return self.message if self.message.startswith(self.name) else f"{self.name}: {self.message}"
+
 
 @dataclass(frozen=True, slots=True)
 class ShownSolid:
