@@ -21,11 +21,15 @@ from solidtree.model.script import (
     sphere,
     union,
 )
+from solidtree.model.scripting import documents, joining, shapes
+
+PARTS = (shapes, joining, documents)
 
 
 def test_the_examples_in_the_words_are_true():
-    results = doctest.testmod(script, optionflags=doctest.ELLIPSIS)
-    assert results.attempted > 20 and results.failed == 0
+    names = {name: getattr(script, name) for name in script.__all__}
+    results = [doctest.testmod(part, extraglobs=names, optionflags=doctest.ELLIPSIS) for part in PARTS]
+    assert sum(one.attempted for one in results) > 20 and not any(one.failed for one in results)
 
 
 def test_all_that_is_offered_exists_and_is_explained():

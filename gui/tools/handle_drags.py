@@ -88,7 +88,7 @@ class Drag:
 
     def call(self) -> Call | None:
         """The operation's name and arguments; None where nothing would change. Raises Refusal."""
-        raise NotImplementedError
+        raise AssertionError(type(self).__name__)
 
     def shown(self) -> list[str]:
         """Each number as text."""

@@ -1,0 +1,1 @@
+"""What scripts write, in parts; ..script is all of it. Imports nothing but `model`."""
