@@ -110,3 +110,10 @@ def test_render_opens_the_solids_by_its_own_and_the_documents_sections(solidtree
     ):
         status, _, err = solidtree("render", file, tmp_path / "no.png", *words)
         assert status == 2 and reason in err and not (tmp_path / "no.png").exists()
+
+
+def test_render_says_when_a_section_leaves_nothing(solidtree, file, tmp_path):
+    status, _, err = solidtree("render", file, tmp_path / "out.png", "--size", "60x40", "--section", "0,0,9:0,0,1")
+    assert status == 0  # the block is higher
+    status, _, err = solidtree("render", file, tmp_path / "out.png", "--size", "60x40", "--section", "0,0,10:0,0,1")
+    assert status == 1 and err.endswith("the section at 0,0,10:0,0,1 leaves nothing\n")

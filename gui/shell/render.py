@@ -17,6 +17,7 @@ from .parameters import read_with_values
 
 if TYPE_CHECKING:
     from ...model.document.nodes import Node
+    from ...model.solid.display import DisplayMesh
     from ...render.camera import Camera
     from ...render.look import Paint
 
@@ -167,8 +168,21 @@ def render(options: argparse.Namespace) -> int:
         from ...model.project.disk import reason_of
 
         raise SystemExit(_refused(options.out, reason_of(error))) from None
+    for section in sections:
+        if meshes and not any(_leaves(section, mesh) for mesh in meshes):
+            print(f"solidtree: {options.file}: the section at {_numbers(section)} leaves nothing", file=sys.stderr)
+            return NOT_IN_ORDER
     fine = len(shown) == len(evaluation.visible) and any(len(mesh.triangles) for mesh in meshes)
     return DONE if fine else NOT_IN_ORDER
+
+
+def _leaves(section: Section, mesh: DisplayMesh) -> bool:
+    """Whether a part of the mesh lies on the side that the section keeps."""
+    return bool(((mesh.points - section.point) @ section.normal > 0.0).any())
+
+
+def _numbers(section: Section) -> str:
+    return ":".join(",".join(f"{value:g}" for value in values) for values in (section.point, section.normal))
 
 
 def _paint(root: Node, by_node: bool) -> Paint:
