@@ -9,7 +9,6 @@ import zipfile
 import numpy as np
 import pytest
 
-from solidtree.gui.command_line import main
 from solidtree.model.script import (
     box,
     cylinder,
@@ -20,21 +19,6 @@ from solidtree.model.script import (
     save,
     sphere,
 )
-
-
-@pytest.fixture
-def solidtree(capsys):
-    """Run a command in this process: (status, standard output, standard error)."""
-
-    def run(*words):
-        try:
-            status = main([str(word) for word in words])
-        except SystemExit as stop:
-            status = stop.code
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return run
 
 
 def process(*words):

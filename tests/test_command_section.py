@@ -7,24 +7,8 @@ import ezdxf
 import numpy as np
 import pytest
 
-from solidtree.gui.command_line import main
 from solidtree.model.operations.sections import add_section
 from solidtree.model.script import box, cylinder, document_of, save
-
-
-@pytest.fixture
-def solidtree(capsys):
-    """Run a command in this process: (status, standard output, standard error)."""
-
-    def run(*words):
-        try:
-            status = main([str(word) for word in words])
-        except SystemExit as stop:
-            status = stop.code
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return run
 
 
 @pytest.fixture

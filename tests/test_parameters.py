@@ -5,7 +5,6 @@ from functools import partial
 
 import pytest
 
-from solidtree.gui.command_line import main
 from solidtree.model.document.document import Document, Parameter, ParameterSet
 from solidtree.model.document.errors import Refusal
 from solidtree.model.editing.session import Session
@@ -239,19 +238,6 @@ def test_scripts_give_parameters_other_values():
     assert values(with_parameters(SAVED, "wide", height=2)) == {"width": 60, "depth": "width / 2", "height": 2}
     with pytest.raises(Refusal, match="no parameter called length"):
         with_parameters(SAVED, length=2)
-
-
-@pytest.fixture
-def solidtree(capsys):
-    def run(*words):
-        try:
-            status = main([str(word) for word in words])
-        except SystemExit as stop:
-            status = stop.code
-        out, err = capsys.readouterr()
-        return status, out, err
-
-    return run
 
 
 def test_the_command_line_takes_sets_and_values(solidtree, tmp_path):

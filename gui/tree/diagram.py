@@ -26,7 +26,7 @@ from ..commands.actions import Actions
 from .diagram_canvas import DiagramCanvas
 from .diagram_paint import letters
 from .drop_view import drag_picture
-from .drops import dragged, drop, drop_fault, is_drop
+from .drops import answer, copies, dragged, drop, drop_fault, is_drop
 from .tree_menu import node_menu
 
 Part = tuple[Node, str, tuple[Node, ...], frozenset[str], csg_diagram.Diagram]
@@ -226,23 +226,18 @@ class Diagram(DiagramCanvas):
 
     def dragMoveEvent(self, event: QDragMoveEvent) -> None:
         parent_id, index, mark = self._drop_place(event.position().toPoint())
-        copy = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        copy = copies(event)
         fault = drop_fault(self._session, event.mimeData(), copy, parent_id, index)
         self._tell(fault or "")
         self.mark(None if fault else mark)
-        if fault:
-            event.setDropAction(Qt.DropAction.IgnoreAction)
-            event.ignore()
-        else:
-            event.setDropAction(Qt.DropAction.CopyAction if copy else Qt.DropAction.MoveAction)
-            event.accept()
+        answer(event, copy, fault)
 
     def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:
         self._end()
 
     def dropEvent(self, event: QDropEvent) -> None:
         parent_id, index, _ = self._drop_place(event.position().toPoint())
-        copy = bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+        copy = copies(event)
         self._end()
         try:
             drop(self._session, event.mimeData(), copy, parent_id, index)

@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QTreeView, QWidget
 from ...model.document.errors import Refusal
 from ...model.editing.session import Session
 from ..theme import colours_now
-from .drops import dragged, drop, drop_fault, is_drop
+from .drops import answer, copies, dragged, drop, drop_fault, is_drop
 from .tree_model import NAME, TreeModel
 
 EDGE = 0.28  # of a row's height: the part above and below in which a drop goes beside it
@@ -155,7 +155,7 @@ class DropView(QTreeView):
     def dragMoveEvent(self, event: QDragMoveEvent) -> None:
         self._pointer = event.position().toPoint()
         (parent_id, index), shape, rect = self.place_at(self._pointer)
-        copy = _copies(event)
+        copy = copies(event)
         fault = drop_fault(self._session, event.mimeData(), copy, parent_id, index)
         over = self.indexAt(self._pointer).siblingAtColumn(NAME)
         if over != self._over:
@@ -165,12 +165,7 @@ class DropView(QTreeView):
             self._scrolling.start()
         self._tell(fault or "")
         self._set_mark(None if fault else (shape, rect))
-        if fault:
-            event.setDropAction(Qt.DropAction.IgnoreAction)
-            event.ignore()
-        else:
-            event.setDropAction(Qt.DropAction.CopyAction if copy else Qt.DropAction.MoveAction)
-            event.accept()
+        answer(event, copy, fault)
 
     def dragLeaveEvent(self, event: QDragLeaveEvent) -> None:
         self._end()
@@ -178,7 +173,7 @@ class DropView(QTreeView):
 
     def dropEvent(self, event: QDropEvent) -> None:
         (parent_id, index), _, _ = self.place_at(event.position().toPoint())
-        copy = _copies(event)
+        copy = copies(event)
         self._end()
         try:
             drop(self._session, event.mimeData(), copy, parent_id, index)
@@ -234,7 +229,3 @@ class DropView(QTreeView):
             painter.setBrush(QColor(colours_now().ground))
             painter.drawEllipse(QPointF(rect.left() + 5.5, y), 3.5, 3.5)
         painter.end()
-
-
-def _copies(event: QDropEvent) -> bool:
-    return bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)

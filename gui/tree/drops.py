@@ -6,7 +6,8 @@ import os
 from collections.abc import Sequence
 from functools import lru_cache
 
-from PySide6.QtCore import QMimeData
+from PySide6.QtCore import QMimeData, Qt
+from PySide6.QtGui import QDropEvent
 
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
@@ -24,6 +25,21 @@ def dragged(session: Session, ids: Sequence[str]) -> QMimeData:
     data = mime_of(session.document, ids)
     data.setData(MIME, "\n".join([_home(session), *ids]).encode())
     return data
+
+
+def copies(event: QDropEvent) -> bool:
+    """Whether Ctrl asks for copies."""
+    return bool(event.modifiers() & Qt.KeyboardModifier.ControlModifier)
+
+
+def answer(event: QDropEvent, copy: bool, fault: str | None) -> None:
+    """Tell the drag whether it may be dropped here, which the pointer shows."""
+    if fault:
+        event.setDropAction(Qt.DropAction.IgnoreAction)
+        event.ignore()
+    else:
+        event.setDropAction(Qt.DropAction.CopyAction if copy else Qt.DropAction.MoveAction)
+        event.accept()
 
 
 def _home(session: Session) -> str:

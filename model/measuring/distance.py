@@ -13,6 +13,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from .vectors import three, unit
+
 Floats = NDArray[np.float64]
 Vector = tuple[float, float, float]
 
@@ -85,7 +87,7 @@ def distance(one: Thing, other: Thing) -> Distance:
 
 def angle_between(one: Vector, other: Vector) -> float:
     """Degrees from 0 to 180 between two directions (Kahan's formula, exact also where they are nearly the same)."""
-    a, b = _unit(np.array(one, dtype=np.float64)), _unit(np.array(other, dtype=np.float64))
+    a, b = unit(np.array(one, dtype=np.float64)), unit(np.array(other, dtype=np.float64))
     return math.degrees(2 * math.atan2(float(np.linalg.norm(a - b)), float(np.linalg.norm(a + b))))
 
 
@@ -119,7 +121,7 @@ def _answer(a: Floats, b: Floats) -> Distance:
     """The nearest of the pairs of points (n, 3)."""
     lengths = np.linalg.norm(b - a, axis=1)
     best = int(np.argmin(lengths))
-    return Distance(float(lengths[best]), _three(a[best]), _three(b[best]))
+    return Distance(float(lengths[best]), three(a[best]), three(b[best]))
 
 
 # Kernels, row by row: points (n, 3), lines as start and way (n, 3), triangles (n, 3, 3).
@@ -306,13 +308,3 @@ def _box_gaps(one: Floats, other: Floats) -> Floats:
         low, high = one[:, None, 0, axis] - other[:, 1, axis], other[:, 0, axis] - one[:, None, 1, axis]
         gaps += np.maximum(np.maximum(low, high), 0) ** 2
     return np.sqrt(gaps)
-
-
-def _unit(vector: Floats) -> Floats:
-    size = float(np.linalg.norm(vector))
-    return vector / size if size else vector
-
-
-def _three(values: Floats) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

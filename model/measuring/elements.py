@@ -23,6 +23,7 @@ from .surfaces import (
     surface_at,
 )
 from .thickness import thickness_at
+from .vectors import three
 
 if TYPE_CHECKING:
     from ..document.nodes import Node
@@ -63,7 +64,7 @@ class Element:
 
 
 def point_element(point: Vector, words: str = "Point") -> Element:
-    place = _three(written(np.array(point)))
+    place = three(written(np.array(point)))
     return Element(words, np.array(place), (vector("Position", place, digits=SEEN),), np.empty((0, 2, 3)))
 
 
@@ -81,7 +82,7 @@ def edge_element(root: Node, mesh: DisplayMesh, point: Vector) -> Element:
     if len(straight):
         a, b = written(lines.points[lines.straight[straight[0]]])
         length = float(np.linalg.norm(b - a))
-        direction = _three((b - a) / length) if length else None
+        direction = three((b - a) / length) if length else None
         figures = [Figure("Length", (length,), digits=SEEN)]
         if direction is not None:
             figures.append(vector("Direction", direction, "", SEEN))
@@ -92,8 +93,8 @@ def edge_element(root: Node, mesh: DisplayMesh, point: Vector) -> Element:
     if not len(circle):
         return Element("Curve", thing, (Figure("Length", (float(chord.sum()),), digits=SEEN),), outline)
     number = circle[0]
-    centre, radius = _three(written(lines.circles.centres[number])), float(lines.circles.radii[number])
-    axis = _three(lines.circles.normals[number])
+    centre, radius = three(written(lines.circles.centres[number])), float(lines.circles.radii[number])
+    axis = three(lines.circles.normals[number])
     digits = SEEN
     exact = _circle_at(root, mesh, lines.edges[near], centre, axis)
     if exact is not None:
@@ -118,7 +119,7 @@ def edge_element(root: Node, mesh: DisplayMesh, point: Vector) -> Element:
         axis=Axis(centre, axis),
         direction=axis,
         centre=centre,
-        line=Line(centre, _three(ends[near, 0]), f"R {short(radius)}"),
+        line=Line(centre, three(ends[near, 0]), f"R {short(radius)}"),
     )
 
 
@@ -152,7 +153,7 @@ def face_element(root: Node, mesh: DisplayMesh, triangle: int, point: Vector) ->
             start = start + np.array(surface.axis) * (np.array(surface.axis) @ (np.asarray(point) - start))
         spoke = np.asarray(point) - start
         rim = start + spoke * surface.radius / max(float(np.linalg.norm(spoke)), 1e-300)
-        line = Line(_three(start), _three(rim), f"R {short(surface.radius)}")
+        line = Line(three(start), three(rim), f"R {short(surface.radius)}")
     outline = _border(corners) if bent else face.rim
     return Element(_words_of(surface, bent), corners, tuple(figures), outline, direction, normal, axis, centre, line)
 
@@ -219,7 +220,7 @@ def _circle_at(
             along = np.array(surface.axis)
             offset = np.array(centre) - surface.point
             if abs(along @ axis) > 1 - 1e-6 and np.linalg.norm(np.cross(along, offset)) < 1e-3 * surface.radius:
-                return _three(np.array(surface.point) + along * (along @ offset)), surface.axis, surface.radius
+                return three(np.array(surface.point) + along * (along @ offset)), surface.axis, surface.radius
     return None
 
 
@@ -238,8 +239,3 @@ def _border(corners: Floats) -> Floats:
     key = bits[:, 0] * np.uint64(0x9E3779B97F4A7C15) + bits[:, 1]
     _, first, count = np.unique(key, return_index=True, return_counts=True)
     return ends[first[count == 1]]
-
-
-def _three(values: NDArray[np.floating]) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

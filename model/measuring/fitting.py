@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .landmarks import curved, patch_at
 from .surface_kinds import CylinderSurface, SphereSurface
+from .vectors import three
 
 if TYPE_CHECKING:
     from ..solid.display import DisplayMesh
@@ -41,12 +42,12 @@ def fitted_surface(mesh: DisplayMesh, triangle: int) -> CylinderSurface | Sphere
     centre, radius, beside = fitted_sphere(points)
     if beside <= ROUND * radius:
         lean, hollow = _lean(areas, middles - centre)
-        found.append((lean, SphereSurface(_three(centre), radius, hollow, beside)))
+        found.append((lean, SphereSurface(three(centre), radius, hollow, beside)))
     point, axis, radius, beside = fitted_cylinder(points, areas)
     if beside <= ROUND * radius:
         offset = middles - point
         lean, hollow = _lean(areas, offset - np.outer(offset @ axis, axis))
-        found.append((lean, CylinderSurface(_three(point), _three(axis), radius, hollow, beside)))
+        found.append((lean, CylinderSurface(three(point), three(axis), radius, hollow, beside)))
     # The two rims of a cylinder lie on a sphere, too: which it is the facets' slopes tell.
     lean, surface = min(found, key=lambda pair: pair[0], default=(np.inf, None))
     return surface if lean < LEAN else None
@@ -109,8 +110,3 @@ def _ball(points: Floats) -> tuple[Floats, float]:
 
 def _worst(offsets: Floats, radius: float) -> float:
     return float(np.abs(np.linalg.norm(offsets, axis=1) - radius).max())
-
-
-def _three(values: Floats) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

@@ -24,6 +24,7 @@ from ..document.primitives import (
     Torus,
 )
 from .surface_kinds import ConeSurface, CylinderSurface, Plane, SphereSurface, TorusSurface, Vector
+from .vectors import three
 
 Floats = NDArray[np.float64]
 
@@ -47,7 +48,7 @@ def shape_of(leaf: Node, corners: Floats, normal: Floats) -> Shape:
 
 @shape_of.register(Box | Polyhedron | Halfspace)
 def _flat(leaf: Node, corners: Floats, normal: Floats) -> Shape:
-    return Plane(_three(corners.mean(axis=0)), _three(normal))
+    return Plane(three(corners.mean(axis=0)), three(normal))
 
 
 @shape_of.register
@@ -58,7 +59,7 @@ def _sphere(leaf: Sphere, corners: Floats, normal: Floats) -> Shape:
 @shape_of.register
 def _cylinder(leaf: Cylinder, corners: Floats, normal: Floats) -> Shape:
     if abs(normal[2]) > CAP:
-        return Plane(_three(corners.mean(axis=0)), _three(normal))
+        return Plane(three(corners.mean(axis=0)), three(normal))
     return CylinderSurface(ORIGIN, UP, float(leaf.radius))
 
 
@@ -69,7 +70,7 @@ def _cone(leaf: Cone, corners: Floats, normal: Floats) -> Shape:
     low, high = float(leaf.radius), float(leaf.top_radius)
     level = np.ptp(corners[:, 2]) <= 1e-6 * max(height, low, high)
     if level and abs(normal[2]) > 1 - 1e-6:
-        return Plane(_three(corners.mean(axis=0)), _three(normal))
+        return Plane(three(corners.mean(axis=0)), three(normal))
     return _slanted(low, foot, high, foot + height)
 
 
@@ -83,9 +84,9 @@ def _extrusion(leaf: Extrude, corners: Floats, normal: Floats) -> Shape:
     outline = leaf.children[0]
     height = float(leaf.height)
     if abs(normal[2]) > 1 - 1e-6:
-        return Plane(_three(corners.mean(axis=0)), _three(normal))
+        return Plane(three(corners.mean(axis=0)), three(normal))
     if not isinstance(outline, Circle):
-        return None if leaf.twist else Plane(_three(corners.mean(axis=0)), _three(normal))
+        return None if leaf.twist else Plane(three(corners.mean(axis=0)), three(normal))
     circle = _circle(outline)
     if circle is None:
         return None
@@ -102,11 +103,11 @@ def _revolution(leaf: Revolve, corners: Floats, normal: Floats) -> Shape:
     outline = leaf.children[0]
     middle = corners.mean(axis=0)
     if abs(normal[2]) > 1 - 1e-6:
-        return Plane(_three(middle), _three(normal))
+        return Plane(three(middle), three(normal))
     around = math.hypot(middle[0], middle[1])
     radial = middle[:2] / around if around else np.zeros(2)
     if abs(float(radial @ normal[:2])) < 1e-3 and abs(normal[2]) < 1e-6:
-        return Plane(_three(middle), _three(normal))  # the ends of less than a full turn
+        return Plane(three(middle), three(normal))  # the ends of less than a full turn
     if isinstance(outline, Circle):
         circle = _circle(outline)
         if circle is None or circle[0][0] < circle[1]:
@@ -163,8 +164,3 @@ def evenly(linear: Floats) -> float | None:
     square = linear.T @ linear
     scale = float(np.trace(square)) / len(square)
     return math.sqrt(scale) if np.abs(square - scale * np.eye(len(square))).max() <= EVEN * scale else None
-
-
-def _three(values: Floats) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .vectors import three
+
 Tensor = tuple[tuple[float, float, float], tuple[float, float, float], tuple[float, float, float]]
 
 
@@ -33,7 +35,7 @@ class Measures:
     @property
     def principal_moments(self) -> tuple[float, float, float] | None:
         """The inertia about the principal axes through the centroid, least first, in mm^5."""
-        return None if self.inertia is None else _three(np.linalg.eigvalsh(np.array(self.inertia)))
+        return None if self.inertia is None else three(np.linalg.eigvalsh(np.array(self.inertia)))
 
     @property
     def principal_axes(self) -> Tensor | None:
@@ -121,12 +123,12 @@ def summed(parts: Sequence[Measures]) -> Measures:
         # Steiner's theorem carries each tensor to the common centroid.
         second = (apart.T * weights) @ apart
         own = np.array([part.inertia for part in solid]).sum(axis=0)
-        centroid = _three(middle)
+        centroid = three(middle)
         inertia = _tensor(own + np.trace(second) * np.eye(3) - second)
     return Measures(
         volume if closed else None,
         sum(part.area for part in parts),
-        (_three(boxes[:, 0].min(axis=0)), _three(boxes[:, 1].max(axis=0))) if len(boxes) else None,
+        (three(boxes[:, 0].min(axis=0)), three(boxes[:, 1].max(axis=0))) if len(boxes) else None,
         centroid,
         sum(part.triangles for part in parts),
         sum(part.components for part in parts),
@@ -136,13 +138,8 @@ def summed(parts: Sequence[Measures]) -> Measures:
     )
 
 
-def _three(values: NDArray[np.float64]) -> tuple[float, float, float]:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
-
-
 def _tensor(rows: NDArray[np.float64]) -> Tensor:
-    return _three(rows[0]), _three(rows[1]), _three(rows[2])
+    return three(rows[0]), three(rows[1]), three(rows[2])
 
 
 def _edge_count(triangles: NDArray[np.integer]) -> int:

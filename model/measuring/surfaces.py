@@ -29,6 +29,7 @@ from .surface_kinds import (
     TorusSurface,
     Vector,
 )
+from .vectors import three, unit
 
 Floats = NDArray[np.float64]
 
@@ -41,22 +42,22 @@ def surface_at(root: Node, mesh: DisplayMesh, triangle: int) -> Surface:
     largest distance (mm) of a vertex of the patch from it, and None otherwise.
     """
     corners = mesh.points[mesh.triangles[triangle]].astype(np.float64)
-    normal = _unit(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
+    normal = unit(np.cross(corners[1] - corners[0], corners[2] - corners[0]))
     outward = -normal if mesh.subtracted[triangle] else normal
     owner = int(mesh.owner[triangle])
     found = None if owner < 0 else leaf_at(root, mesh.owners[owner])
     if found is None:
-        return Facet(_three(corners.mean(axis=0)), _three(normal))
+        return Facet(three(corners.mean(axis=0)), three(normal))
     leaf, matrix = found
     # A plane's normal goes with the transposed inverse of a map: from the world to the leaf with the transposed map.
     own = inverse(matrix)
     local = corners @ own[:, :3].T + own[:, 3]
-    along = _unit(matrix[:, :3].T @ outward)
+    along = unit(matrix[:, :3].T @ outward)
     if isinstance(leaf, ImportedMesh | Hull | Minkowski):
-        return fitted_surface(mesh, triangle) or Plane(_three(corners.mean(axis=0)), _three(normal))
+        return fitted_surface(mesh, triangle) or Plane(three(corners.mean(axis=0)), three(normal))
     shape = shape_of(leaf, local, along)
     placed = None if shape is None else _placed(shape, matrix, corners, normal)
-    return placed or Facet(_three(corners.mean(axis=0)), _three(normal))
+    return placed or Facet(three(corners.mean(axis=0)), three(normal))
 
 
 def leaf_at(root: Node, path: Path) -> tuple[Node, Floats] | None:
@@ -96,37 +97,37 @@ def _placed(shape: Shape, matrix: Floats, corners: Floats, normal: Floats) -> Su
 
     match shape:
         case Plane():
-            return Plane(_three(corners.mean(axis=0)), _three(normal))
+            return Plane(three(corners.mean(axis=0)), three(normal))
         case SphereSurface(centre, radius):
             scale = evenly(linear)
             if scale is None:
                 return None
             middle = mapped(centre)
             hollow = bool(normal @ (corners.mean(axis=0) - middle) < 0)
-            return SphereSurface(_three(middle), scale * radius, hollow)
+            return SphereSurface(three(middle), scale * radius, hollow)
         case TorusSurface(centre, _, radius, tube):
             scale = evenly(linear)
             if scale is None:
                 return None
-            middle, axis = mapped(centre), _unit(linear[:, 2])
+            middle, axis = mapped(centre), unit(linear[:, 2])
             offset = corners.mean(axis=0) - middle
             flat = offset - axis * (axis @ offset)
-            hollow = bool(normal @ (offset - scale * radius * _unit(flat)) < 0)
-            return TorusSurface(_three(middle), _three(axis), scale * radius, scale * tube, hollow)
+            hollow = bool(normal @ (offset - scale * radius * unit(flat)) < 0)
+            return TorusSurface(three(middle), three(axis), scale * radius, scale * tube, hollow)
         case CylinderSurface(point, _, radius):
             scale = _round(linear)
             if scale is None:
                 return None
-            middle, axis = mapped(point), _unit(linear[:, 2])
-            return CylinderSurface(_three(middle), _three(axis), scale * radius, _inward(corners, normal, middle, axis))
+            middle, axis = mapped(point), unit(linear[:, 2])
+            return CylinderSurface(three(middle), three(axis), scale * radius, _inward(corners, normal, middle, axis))
         case ConeSurface(apex, (_, _, sign), half):
             scale = _round(linear)
             if scale is None:
                 return None
-            middle, axis = mapped(apex), sign * _unit(linear[:, 2])
+            middle, axis = mapped(apex), sign * unit(linear[:, 2])
             slope = math.tan(math.radians(half)) * scale / float(np.linalg.norm(linear[:, 2]))
             hollow = _inward(corners, normal, middle, axis)
-            return ConeSurface(_three(middle), _three(axis), math.degrees(math.atan(slope)), hollow)
+            return ConeSurface(three(middle), three(axis), math.degrees(math.atan(slope)), hollow)
     return None
 
 
@@ -142,13 +143,3 @@ def _round(linear: Floats) -> float | None:
     size = float(square[0, 0])
     upright = abs(square[:2, 2]).max() <= EVEN * math.sqrt(size * float(square[2, 2]))
     return evenly(linear[:, :2]) if upright else None
-
-
-def _unit(vector: Floats) -> Floats:
-    size = float(np.linalg.norm(vector))
-    return vector / size if size else vector
-
-
-def _three(values: Floats) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z

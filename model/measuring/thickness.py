@@ -8,6 +8,8 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .vectors import three
+
 if TYPE_CHECKING:
     from manifold3d import Manifold
 
@@ -47,8 +49,8 @@ def thickness_at(
     rows = np.arange(len(triangles))
     for axis in range(2):  # a triangle all on one side of an axis does not cover the origin
         sides = flat[:, axis]
-        one, two, three = (sides[triangles[rows, i]] for i in range(3))
-        low, high = np.minimum(np.minimum(one, two), three), np.maximum(np.maximum(one, two), three)
+        one, two, last = (sides[triangles[rows, i]] for i in range(3))
+        low, high = np.minimum(np.minimum(one, two), last), np.maximum(np.maximum(one, two), last)
         rows = rows[(low <= 0) & (high >= 0)]
     if not len(rows):
         return None
@@ -66,7 +68,7 @@ def thickness_at(
     if not len(beyond):
         return None
     length = float(beyond.min())
-    return Thickness(length, _three(start), _three(start + length * way))
+    return Thickness(length, three(start), three(start + length * way))
 
 
 def thinnest(solid: Manifold, rays: int = RAYS, seed: int = 0) -> Thickness | None:
@@ -104,7 +106,7 @@ def thinnest(solid: Manifold, rays: int = RAYS, seed: int = 0) -> Thickness | No
                 exit_ = np.asarray(hit.position, dtype=np.float64)
                 length = float(np.linalg.norm(exit_ - start))
                 if best is None or length < best.length:
-                    best = Thickness(length, _three(start), _three(exit_))
+                    best = Thickness(length, three(start), three(exit_))
             break
     return best
 
@@ -114,8 +116,3 @@ OPPOSITE = np.cos(np.radians(45))
 
 def _cross(one: Floats, other: Floats) -> Floats:
     return one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0]
-
-
-def _three(values: Floats) -> Vector:
-    x, y, z = (float(value) for value in values)
-    return x, y, z
