@@ -40,6 +40,9 @@ def box(lower=(0, 0, 0), upper=(10, 10, 10), root="box") -> DisplayMesh:
         edges=np.array(sides, np.int32),
         edge_sides=np.array(touching, np.int32),
         bounds=bounds,
+        vertices=np.array(points),
+        corners=np.array(triangles, np.int32),
+        convex=np.zeros(2, bool),
     )
 
 

@@ -106,6 +106,7 @@ def flat_mesh(points, triangles):
         points, np.tile(np.float32([0, 0, 1]), (len(points), 1)), triangles, np.zeros(count, np.int32), (("mesh",),),
         np.zeros(count, bool), np.arange(count, dtype=np.int32), points[:0], np.zeros((0, 2), np.int32),
         np.zeros((0, 2), np.int32), np.array([points.min(axis=0), points.max(axis=0)], float),
+        points.astype(float), triangles, np.zeros(1, bool),
     )  # fmt: skip
 
 

@@ -38,15 +38,25 @@ class DisplayMesh:
     edges: NDArray[np.int32]  # (e, 2)
     edge_sides: NDArray[np.int32]  # (e, 2) the triangles on both sides of each edge
     bounds: NDArray[np.float64]  # (2, 3)
+    vertices: NDArray[np.float64]  # (v, 3) the solid's own, as exact as they are
+    corners: NDArray[np.int32]  # (t, 3) the triangles by those
+    convex: NDArray[np.bool_]  # (o,) owners whose whole surface, before it was cut, is known to be convex
 
 
-def display_mesh(mesh: Mesh64, owner_of_run: NDArray[np.int32], owners: tuple[Path, ...] = ()) -> DisplayMesh:
-    """The picture's side of a result of manifold3d. `owner_of_run` as from provenance.owners_of_runs."""
+def display_mesh(
+    mesh: Mesh64,
+    owner_of_run: NDArray[np.int32],
+    owners: tuple[Path, ...] = (),
+    convex: NDArray[np.bool_] | None = None,
+) -> DisplayMesh:
+    """The picture's side of a result of manifold3d. `owner_of_run` as from provenance.owners_of_runs; `convex` (o,)
+    where it is known."""
+    convex = np.zeros(len(owners), dtype=bool) if convex is None else convex
     points = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3]
     triangles = np.asarray(mesh.tri_verts).astype(np.int64)
     count = len(triangles)
     if not count:
-        return _empty(owners)
+        return _empty(owners, convex)
     starts = np.asarray(mesh.run_index, dtype=np.int64) // 3
     run = np.repeat(np.arange(len(starts) - 1), np.diff(starts))
     flags = np.asarray(mesh.run_flags, dtype=np.int64)
@@ -88,15 +98,18 @@ def display_mesh(mesh: Mesh64, owner_of_run: NDArray[np.int32], owners: tuple[Pa
         edges=edge_ends.reshape(-1, 2).astype(np.int32),
         edge_sides=edge_sides.astype(np.int32),
         bounds=np.array([points.min(axis=0), points.max(axis=0)]),
+        vertices=np.ascontiguousarray(points),
+        corners=triangles.astype(np.int32),
+        convex=convex,
     )
 
 
-def _empty(owners: tuple[Path, ...]) -> DisplayMesh:
+def _empty(owners: tuple[Path, ...], convex: NDArray[np.bool_]) -> DisplayMesh:
     none = np.empty((0, 3), dtype=np.float32)
     numbers = np.empty(0, dtype=np.int32)
     return DisplayMesh(
         none, none, numbers.reshape(0, 3), numbers, owners, numbers.astype(bool), numbers, none,
-        numbers.reshape(0, 2), numbers.reshape(0, 2), np.zeros((2, 3)),
+        numbers.reshape(0, 2), numbers.reshape(0, 2), np.zeros((2, 3)), np.zeros((0, 3)), numbers.reshape(0, 3), convex,
     )  # fmt: skip
 
 

@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from ..document.document import Document
 from ..document.errors import Refusal
-from ..document.nodes import Node
-from ..document.primitives import ImportedMesh
+from ..document.nodes import Hull, Node
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere
 from ..document.resolve import Resolver
 from ..measuring.measure import Measures, measure
 from ..worker.shown import Message
@@ -21,6 +21,9 @@ from .entry import Entry
 from .evaluate import Evaluator
 from .provenance import occurrences, owners_of_runs
 from .tessellation import DEFAULT_TOLERANCE
+
+CONVEX = (Box, Sphere, Cylinder, Cone, Halfspace, Hull)
+"""Kinds that are convex whatever their numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,7 +102,8 @@ def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
         return display_mesh(mesh, np.zeros(1, dtype=np.int32), tuple(occurrence.path for occurrence in found))
     mesh = solid.to_mesh64()
     owner = owners_of_runs(mesh, root, evaluator.originals, found)
-    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found))
+    convex = np.array([isinstance(occurrence.leaf, CONVEX) for occurrence in found], dtype=bool)
+    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found), convex)
 
 
 @dataclass(frozen=True, slots=True)

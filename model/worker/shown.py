@@ -155,5 +155,6 @@ def _bytes(solid: ShownSolid) -> int:
     mesh = solid.mesh
     if mesh is None:
         return 100
-    arrays = (mesh.points, mesh.normals, mesh.triangles, mesh.owner, mesh.facet, mesh.edge_points, mesh.edges)
+    arrays = (mesh.points, mesh.normals, mesh.triangles, mesh.owner, mesh.facet, mesh.edge_points, mesh.edges,
+              mesh.vertices, mesh.corners)  # fmt: skip
     return sum(array.nbytes for array in arrays)
