@@ -1,8 +1,8 @@
 """The painter's order: all fragments from back to front as seen by an eye, without looking at a single coordinate.
 
 What lies on the eye's side of a plane may hide what lies in it or behind it, never the other way round (Schumacker
-1969; Fuchs, Kedem and Naylor 1980). In a leaf the fragments of a convex body are ordered by where they face: of two that
-overlap in the picture the farther one faces away, or, seen from inside, the nearer one.
+1969; Fuchs, Kedem and Naylor 1980). In a leaf the fragments of a convex body are ordered by where they face: of two
+that overlap in the picture the farther one faces away, or, seen from inside, the nearer one.
 """
 
 from __future__ import annotations
