@@ -38,7 +38,7 @@ bench: $(READY)
 	@set --; [ -n "$${DISPLAY:-}" ] || [ "$$(uname)" != Linux ] || set -- $(XVFB); \
 	for script in $$(grep -l __main__ bench/*.py); do echo "== $$script"; "$$@" $(BIN)/python $$script || exit 1; done
 
-$(READY): requirements.lock pyproject.toml
+$(READY): requirements.lock pyproject.toml model/partition/bsp.cpp
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 		{ echo "Solidtree needs Python 3.11 or newer; name one with: make PYTHON=python3.12"; exit 1; }
 	@.ci/system-packages
@@ -64,5 +64,5 @@ wheel: $(READY)
 	$(BIN)/python -m pip wheel -q --no-deps --no-build-isolation -w dist .
 
 clean:
-	rm -rf .venv build dist *.egg-info .pytest_cache .ruff_cache .hypothesis dumbbell.png
+	rm -rf .venv build dist *.egg-info .pytest_cache .ruff_cache .hypothesis dumbbell.png model/partition/bsp.*so
 	find . -name __pycache__ -prune -exec rm -rf {} +

@@ -33,7 +33,7 @@ class SolidActors:
         self._outline = lines_of(mesh.edge_points, mesh.edges[:0])
         self._silhouette = vtkPolyData()
         self._silhouette.SetPoints(self.surface.GetPoints())
-        self.faces = _actor(self.surface, offset=True)
+        self.faces = faces_actor(self.surface)
         self.edges = _actor(self.features)
         self.silhouette = _actor(self._silhouette)
         self.outline = _actor(self._outline)
@@ -50,6 +50,11 @@ class SolidActors:
         return self.faces, self.edges, self.silhouette, self.outline
 
     @property
+    def face_colours(self) -> NDArray[np.uint8]:
+        """Colours (o, 2, 3) of triangles by owner and by `subtracted`, once painted; another array where others."""
+        return np.zeros((1, 2, 3), np.uint8) if self._palette is None else self._palette
+
+    @property
     def adjacency(self) -> Adjacency:
         if self._adjacency is None:
             self._adjacency = Adjacency(self.mesh)
@@ -62,18 +67,8 @@ class SolidActors:
         return np.array([any(owner[:n] in wanted for n in lengths) for owner in self.mesh.owners], bool)
 
     def set_style(self, style: str, shading: str, look: Look, opacity: float, line_width: float) -> None:
-        material = self.faces.GetProperty()
-        if style == "wireframe":
-            material.SetRepresentationToWireframe()
-        else:
-            material.SetRepresentationToSurface()
-        if style in ("shaded", "edges"):
-            shade(self.faces, shading, look)
-            material.SetOpacity(opacity)
-        else:
-            unlit(self.faces)
-            material.SetOpacity(1.0)
-        material.SetLineWidth(max(1.0, 0.5 * line_width))
+        dress_faces(self.faces, style, shading, look, opacity)
+        self.faces.GetProperty().SetLineWidth(max(1.0, 0.5 * line_width))
         self.edges.SetVisibility(style != "shaded")
         self.silhouette.SetVisibility(style in ("wireframe", "hidden-line"))
         # VTK offsets lines by 4 units, enough to shine through thin walls; in wireframe they lie over all triangles.
@@ -127,12 +122,32 @@ class SolidActors:
         return beside[:, 0] | beside[:, 1]
 
 
-def _actor(data: vtkPolyData, offset: bool = False) -> vtkActor:
+def faces_actor(data: vtkPolyData) -> vtkActor:
+    """An actor whose faces stand back behind lines in the same place."""
+    actor = _actor(data)
+    actor.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0)
+    return actor
+
+
+def dress_faces(actor: vtkActor, style: str, shading: str, look: Look, opacity: float, pieces: bool = False) -> None:
+    """Show faces in a style; `pieces` of triangles as in `shade`."""
+    material = actor.GetProperty()
+    if style == "wireframe":
+        material.SetRepresentationToWireframe()
+    else:
+        material.SetRepresentationToSurface()
+    if style in ("shaded", "edges"):
+        shade(actor, shading, look, pieces)
+        material.SetOpacity(opacity)
+    else:
+        unlit(actor)
+        material.SetOpacity(1.0)
+
+
+def _actor(data: vtkPolyData) -> vtkActor:
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(data)
     mapper.SetResolveCoincidentTopologyToPolygonOffset()
-    if offset:
-        mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0)
     actor = vtkActor()
     actor.SetMapper(mapper)
     return actor

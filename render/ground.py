@@ -56,6 +56,11 @@ class Ground:
     def set_visible(self, visible: bool) -> None:
         self.actor.SetVisibility(visible)
 
+    @property
+    def height(self) -> float | None:
+        """At which z the lines are drawn at the moment, None when hidden."""
+        return float(self.actor.GetPosition()[2]) if self.visible else None
+
     def set_look(self, look: Look) -> None:
         self._look = look
         self._drawn = None

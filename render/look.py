@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 Colour = tuple[float, float, float]  # sRGB, 0 to 1
 
 STYLES = ("shaded", "edges", "wireframe", "hidden-line")
+HIDDEN_SURFACES = ("zbuffer", "bsp")
 SHADINGS = ("flat", "gouraud", "phong")
 THEMES = ("light", "dark")
 
@@ -118,6 +119,12 @@ class Paint:
 
     solid: str | Colour | None = None
     owners: tuple[str | Colour | None, ...] = ()
+
+
+def check_hidden_surface(mode: str) -> None:
+    """Raises ValueError for what is none of HIDDEN_SURFACES."""
+    if mode not in HIDDEN_SURFACES:
+        raise ValueError(f"hidden surfaces are removed by {' or '.join(HIDDEN_SURFACES)}, not by {mode!r}")
 
 
 def look_of(theme: str) -> Look:

@@ -12,7 +12,8 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
 from .camera import Camera, apply
 from .ground import Ground
-from .look import Look, look_of
+from .look import Look, check_hidden_surface, look_of
+from .painter.painter import Painter
 from .polydata import set_cell_colours, surface_of
 from .scene import Scene
 from .shading import unlit
@@ -21,6 +22,7 @@ from .window import close, offscreen_window, pixels
 
 if TYPE_CHECKING:
     from ..model.document.document import Section
+    from ..model.partition.tree import Tree
     from ..model.solid.display import DisplayMesh
 
 SAMPLES = 8
@@ -40,17 +42,21 @@ def picture(
     look: Look | str = "light",
     ground: bool = False,
     sections: "Sequence[Section]" = (),
+    hidden_surface: str = "zbuffer",
 ) -> NDArray[np.uint8]:
     """Solids as (mesh, colours) pairs, see `Scene.show`, in one picture (height, width, 3) of sRGB bytes.
 
     `view` is a camera, taken as it is, or the name of a view, fitted to the solids with the full vertical angle
     `perspective` in degrees, or in parallel projection for None. `background` is a colour, None for the look's
     gradient, or "transparent", which gives a fourth channel with alpha (colours not multiplied by it). The active
-    ones of `sections` open the solids. Raises ValueError for a size, style, shading, opacity or view that does not
-    exist, Refusal for such a colour.
+    ones of `sections` open the solids. `hidden_surface` is one of look.HIDDEN_SURFACES; with "bsp" a tree is built.
+    Raises ValueError for a size, style, shading, opacity, hidden surface or view that does not exist, Refusal for such
+    a colour.
     """
     clear = background == "transparent"
-    fine = 2 if opacity < 1.0 else 1  # VTK peels no multi-sampled depths: then 2 by 2 pixels make one
+    fine = (
+        2 if opacity < 1.0 and hidden_surface != "bsp" else 1
+    )  # VTK peels no multi-sampled depths: then 2 by 2 pixels make one
     window = offscreen_window((fine * size[0], fine * size[1]), SAMPLES if fine == 1 else 0)
     try:
         renderer = vtkRenderer()
@@ -64,14 +70,20 @@ def picture(
         renderer.SetBackgroundAlpha(0.0 if clear else 1.0)
         scene.set_sections(sections)
         scene.show({str(number): solid for number, solid in enumerate(solids)})
+        scene.set_hidden_surface(hidden_surface)
+        if hidden_surface == "bsp":
+            scene.show_tree(_tree([mesh for mesh, _ in solids]), tuple(scene.meshes))
         bounds = scene.visible_bounds()
         camera = _camera(view, bounds, size, perspective)
+        height = None
         if ground:
             plane = Ground(renderer, scene.look)
+            scene.painter.over_ground()
             plane.set_line_scale(fine)
             plane.update(camera)
             bounds = union(bounds, plane.bounds)
-        scene.before_render(camera)
+            height = plane.height
+        scene.before_render(camera, height)
         apply(camera, renderer.GetActiveCamera(), bounds)
         window.Render()
         result = _averaged(pixels(window), fine)
@@ -87,12 +99,13 @@ def ids_picture(
     *,
     numbers: Sequence[NDArray[Any]] | None = None,
     perspective: float | None = 30.0,
+    hidden_surface: str = "zbuffer",
 ) -> NDArray[np.uint8]:
     """Which solid each pixel shows: (height, width, 3) bytes that spell its number as 0xRRGGBB, background 0.
 
     Without light, smoothing and anti-aliasing. The first mesh has number 1; `numbers` gives instead a number from 0 to
-    2**24 - 1 for each triangle (t,) of each mesh. `view` and `perspective` as in `picture`. Raises ValueError as
-    there, and for numbers that do not fit.
+    2**24 - 1 for each triangle (t,) of each mesh. `view`, `perspective` and `hidden_surface` as in `picture`. Raises
+    ValueError as there, and for numbers that do not fit.
     """
     window = offscreen_window(size)
     try:
@@ -102,14 +115,24 @@ def ids_picture(
         renderer.SetBackground(0.0, 0.0, 0.0)
         if numbers is None:
             numbers = [np.full(len(mesh.triangles), index, np.int64) for index, mesh in enumerate(meshes, 1)]
-        for mesh, values in zip(meshes, numbers, strict=True):
-            if len(mesh.triangles):
-                renderer.AddActor(_numbered(mesh, np.asarray(values)))
+        colours = [_number_colours(mesh, np.asarray(values)) for mesh, values in zip(meshes, numbers, strict=True)]
         bounds = None
         for mesh in meshes:
             if len(mesh.triangles):
                 bounds = union(bounds, np.reshape(mesh.bounds, (2, 3)))
-        apply(_camera(view, bounds, size, perspective), renderer.GetActiveCamera(), bounds)
+        camera = _camera(view, bounds, size, perspective)
+        check_hidden_surface(hidden_surface)
+        if hidden_surface == "bsp":
+            painter = Painter(renderer)
+            painter.show(_tree(meshes), meshes)
+            painter.colour(np.concatenate([*colours, np.zeros((0, 3), np.uint8)]))
+            painter.turn(camera, opaque=True, cull=True)
+            _dress_numbered(painter.actor)
+        else:
+            for mesh, values in zip(meshes, colours, strict=True):
+                if len(mesh.triangles):
+                    renderer.AddActor(_numbered(mesh, values))
+        apply(camera, renderer.GetActiveCamera(), bounds)
         window.Render()
         return np.ascontiguousarray(pixels(window)[..., :3])
     finally:
@@ -162,23 +185,39 @@ def _camera(view: "Camera | str", bounds: Any, size: tuple[int, int], perspectiv
     return camera_of(bounds, size[0] / size[1], view, perspective=perspective)
 
 
-def _numbered(mesh: "DisplayMesh", values: NDArray[Any]) -> vtkActor:
+def _tree(meshes: Sequence["DisplayMesh"]) -> "Tree":
+    from ..model.partition.build import build
+    from ..model.partition.faces import faces_of_meshes
+
+    return build(faces_of_meshes(meshes))
+
+
+def _number_colours(mesh: "DisplayMesh", values: NDArray[Any]) -> NDArray[np.uint8]:
     if values.shape != (len(mesh.triangles),):
         raise ValueError(f"{len(mesh.triangles)} triangles need as many numbers, not {values.shape}")
     if len(values) and not 0 <= values.min() <= values.max() <= LAST_NUMBER:
         raise ValueError(f"numbers in pictures lie between 0 and {LAST_NUMBER}")
+    whole = values.astype(np.int64)
+    return np.column_stack([whole >> 16, whole >> 8 & 255, whole & 255]).astype(np.uint8)
+
+
+def _numbered(mesh: "DisplayMesh", colours: NDArray[np.uint8]) -> vtkActor:
     surface = surface_of(mesh)
     surface.GetPointData().SetNormals(None)
-    whole = values.astype(np.int64)
-    set_cell_colours(surface, np.column_stack([whole >> 16, whole >> 8 & 255, whole & 255]).astype(np.uint8))
+    set_cell_colours(surface, colours)
     mapper = vtkPolyDataMapper()
     mapper.SetInputData(surface)
-    mapper.SetResolveCoincidentTopologyToOff()
     actor = vtkActor()
     actor.SetMapper(mapper)
+    _dress_numbered(actor)
+    return actor
+
+
+def _dress_numbered(actor: vtkActor) -> None:
+    """Colours as they are, depths as well."""
+    actor.GetMapper().SetResolveCoincidentTopologyToOff()
     unlit(actor)
     actor.GetProperty().SetInterpolationToFlat()
-    return actor
 
 
 def _averaged(colours: NDArray[np.uint8], fine: int) -> NDArray[np.uint8]:

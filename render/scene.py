@@ -1,20 +1,22 @@
 """The shown solids as actors of one renderer, updated by identity: what is the same object is not uploaded again."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
-from .actors import Path, SolidActors
-from .look import LIGHT, SHADINGS, STYLES, Look, light_up, look_of, set_background
+from .actors import Path, SolidActors, dress_faces
+from .look import LIGHT, SHADINGS, STYLES, Look, check_hidden_surface, light_up, look_of, set_background
+from .painter.painter import Painter
 from .sections import Sections
 
 if TYPE_CHECKING:
     from vtkmodules.vtkRenderingCore import vtkRenderer
 
     from ..model.document.document import Section
+    from ..model.partition.tree import Tree
     from ..model.solid.display import DisplayMesh
     from .camera import Camera
 
@@ -31,6 +33,11 @@ class Scene:
         self.line_scale = 1.0
         self.selection: frozenset[Path] = frozenset()
         self.hover: Path | None = None
+        self.hidden_surface = "zbuffer"
+        self.painter = Painter(renderer)
+        self._tree: Tree | None = None
+        self._tree_meshes: dict[str, DisplayMesh] = {}
+        self._face_colours: tuple[NDArray[np.uint8], ...] = ()
         self._background: Any = None
         self._solids: dict[str, SolidActors] = {}
         self.sections = Sections(renderer)
@@ -67,8 +74,40 @@ class Scene:
     def set_sections(self, sections: Iterable["Section"], dragged: bool = False) -> None:
         """Open the picture by those of the sections that are active; `dragged` while they are on their way."""
         if self.sections.set_planes(sections, dragged):
+            self.sections.clip(self.painter.actors)
             for entry in self._solids.values():
                 self.sections.clip(entry.actors)
+
+    def set_hidden_surface(self, mode: str) -> None:
+        """How faces hide each other, one of look.HIDDEN_SURFACES, else ValueError: by a depth buffer, or drawn in the
+        order of the tree. See `show_tree`."""
+        check_hidden_surface(mode)
+        self.hidden_surface = mode
+
+    def show_tree(self, tree: "Tree | None", solid_ids: Sequence[str] = ()) -> None:
+        """Order faces by a tree over the triangles of the shown solids with these ids, one solid after the other.
+
+        It holds as long as these very meshes are shown and no others; from then on, and with None, the depth buffer is
+        used. So is it where the tree does not fit what is shown.
+        """
+        meshes = {key: self._solids[key].mesh for key in solid_ids if key in self._solids}
+        count = sum(len(mesh.triangles) for mesh in meshes.values())
+        fits = tree is not None and len(meshes) == len(solid_ids) and tree.faces.count == count
+        self._tree, self._tree_meshes = (tree, meshes) if fits else (None, {})
+
+    @property
+    def painting(self) -> bool:
+        """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown."""
+        if self.hidden_surface != "bsp" or self._tree is None:
+            return False
+        shown = {key: entry.mesh for key, entry in self._solids.items() if len(entry.mesh.triangles)}
+        ordered = {key: mesh for key, mesh in self._tree_meshes.items() if len(mesh.triangles)}
+        return shown.keys() == ordered.keys() and all(shown[key] is ordered[key] for key in shown)
+
+    @property
+    def peeling(self) -> bool:
+        """Whether translucent faces are depth-peeled."""
+        return self.opacity < 1.0 and not self.painting
 
     @property
     def meshes(self) -> dict[str, "DisplayMesh"]:
@@ -115,7 +154,8 @@ class Scene:
         self._restyle()
 
     def set_opacity(self, opacity: float) -> None:
-        """Of all faces, 0 to 1; below 1 they are depth-peeled. Raises ValueError outside."""
+        """Of all faces, 0 to 1; below 1 they are depth-peeled or blended in the tree's order. Raises ValueError
+        outside."""
         if not 0.0 <= opacity <= 1.0:
             raise ValueError(f"an opacity lies between 0 and 1, not at {opacity}")
         if opacity != self.opacity:
@@ -141,8 +181,12 @@ class Scene:
         lower, upper = np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]
         return np.array([lower, upper], float)
 
-    def before_render(self, camera: "Camera") -> None:
-        """Bring up to date what depends on the camera: silhouettes in the styles that draw them."""
+    def before_render(self, camera: "Camera", ground: float | None = None) -> None:
+        """Bring up to date what depends on the camera: the order of faces, silhouettes in the styles that draw them.
+
+        `ground` is the height of the ground's lines, which translucent faces are blended below and above.
+        """
+        self._order_faces(camera, ground)
         if self.style in ("wireframe", "hidden-line"):
             for entry in self._solids.values():
                 entry.turn_silhouette(camera)
@@ -153,6 +197,37 @@ class Scene:
                 self.style, self.look, self._ground, self.selection, self.hover, self._line_width, pixel
             )
 
+    def _order_faces(self, camera: "Camera", ground: float | None) -> None:
+        """Draw faces by the painter or by their own actors."""
+        painting = self.painting
+        by_painter = painting and self.style != "wireframe"
+        for entry in self._solids.values():
+            entry.faces.SetVisibility(not by_painter)
+        self.renderer.SetUseDepthPeeling(self.peeling)
+        if not by_painter:
+            self.painter.hide()
+            if not self._solids:
+                self.painter.clear()
+            return
+        tree, meshes = self._tree, tuple(self._tree_meshes.values())
+        assert tree is not None
+        if self.painter.tree is not tree or self.painter.meshes != meshes:
+            self.painter.show(tree, meshes)
+            self._face_colours = ()
+        colours = tuple(self._solids[key].face_colours for key in self._tree_meshes)
+        if len(colours) != len(self._face_colours) or any(
+            a is not b for a, b in zip(colours, self._face_colours, strict=True)
+        ):
+            self._face_colours = colours
+            by_face = [
+                palette[m.owner, m.subtracted.astype(np.intp)] for palette, m in zip(colours, meshes, strict=True)
+            ]
+            self.painter.colour(np.concatenate([*by_face, np.zeros((0, 3), np.uint8)]))
+        lit = self.style in ("shaded", "edges")
+        self.painter.light_at_corners(lit and self.shading == "gouraud")
+        opaque = not lit or self.opacity >= 1.0
+        self.painter.turn(camera, opaque, not self.sections.planes, ground)
+
     def _remove(self, solid_id: str) -> None:
         for actor in self._solids.pop(solid_id).actors:
             self.renderer.RemoveActor(actor)
@@ -160,11 +235,11 @@ class Scene:
     def _restyle(self) -> None:
         plain = self.style == "hidden-line"
         set_background(self.renderer, self.look, plain, self._background)
-        peel = self.opacity < 1.0
         self.renderer.SetUseOIT(False)
-        self.renderer.SetUseDepthPeeling(peel)
         self.renderer.SetMaximumNumberOfPeels(24)
         self.renderer.SetOcclusionRatio(0.0)
+        for actor in self.painter.actors:
+            dress_faces(actor, self.style, self.shading, self.look, self.opacity, pieces=True)
         for entry in self._solids.values():
             self._style(entry)
             self._paint(entry)

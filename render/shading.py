@@ -36,6 +36,22 @@ _VERTEX_LIGHTING = """//VTK::PositionVC::Impl
   gouraudFront = gouraudLight(gouraudNormal, %.6f);
   gouraudBack = gouraudLight(-gouraudNormal, %.6f);
 """
+# A fragment's corner takes the light between those at the corners of the triangle that it is a piece of.
+CORNER_NORMALS = ("cornerNormalA", "cornerNormalB", "cornerNormalC")
+CORNER_WEIGHTS = "cornerWeights"
+_PIECE_DECLARATIONS = "".join(f"in vec3 {name};\n" for name in (*CORNER_NORMALS, CORNER_WEIGHTS))
+_PIECE_LIGHTING = """//VTK::PositionVC::Impl
+  gouraudFront = vec4(0.0);
+  gouraudBack = vec4(0.0);
+""" + "".join(
+    f"""  {{
+    vec3 gouraudNormal = normalize(normalMatrix * {name});
+    gouraudFront += {CORNER_WEIGHTS}.{weight} * gouraudLight(gouraudNormal, %.6f);
+    gouraudBack += {CORNER_WEIGHTS}.{weight} * gouraudLight(-gouraudNormal, %.6f);
+  }}
+"""
+    for name, weight in zip(CORNER_NORMALS, "xyz", strict=True)
+)
 _FRAGMENT_DECLARATIONS = """//VTK::Normal::Dec
 in vec4 gouraudFront;
 in vec4 gouraudBack;
@@ -46,8 +62,11 @@ _FRAGMENT_LIGHTING = """
 """
 
 
-def shade(actor: "vtkActor", shading: str, look: Look) -> None:
-    """Light an actor's faces: `shading` is "flat", "gouraud" or "phong", else ValueError."""
+def shade(actor: "vtkActor", shading: str, look: Look, pieces: bool = False) -> None:
+    """Light an actor's faces: `shading` is "flat", "gouraud" or "phong", else ValueError.
+
+    `pieces` of triangles have vertex attributes of the names above for Gouraud's light.
+    """
     if shading not in ("flat", "gouraud", "phong"):
         raise ValueError(f"no shading is called {shading!r}: take flat, gouraud or phong")
     material = actor.GetProperty()
@@ -65,8 +84,10 @@ def shade(actor: "vtkActor", shading: str, look: Look) -> None:
     if shading == "gouraud":
         lights = "\n".join(_VERTEX_LIGHT % (*_towards(light), strength) for light, strength in LIGHTS)
         power = look.specular_power
-        shader.AddVertexShaderReplacement("//VTK::Normal::Dec", True, _VERTEX_DECLARATIONS % lights, False)
-        shader.AddVertexShaderReplacement("//VTK::PositionVC::Impl", True, _VERTEX_LIGHTING % (power, power), False)
+        declarations = (_PIECE_DECLARATIONS if pieces else "") + _VERTEX_DECLARATIONS % lights
+        lighting = _PIECE_LIGHTING % ((power, power) * 3) if pieces else _VERTEX_LIGHTING % (power, power)
+        shader.AddVertexShaderReplacement("//VTK::Normal::Dec", True, declarations, False)
+        shader.AddVertexShaderReplacement("//VTK::PositionVC::Impl", True, lighting, False)
         shader.AddFragmentShaderReplacement("//VTK::Normal::Dec", True, _FRAGMENT_DECLARATIONS, False)
         shader.AddFragmentShaderReplacement("//VTK::Light::Impl", True, _FRAGMENT_LIGHTING, False)
 

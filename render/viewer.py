@@ -1,6 +1,6 @@
 """One picture that is kept up to date: window, scene, ground, view cube and camera. Knows no Qt."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -22,6 +22,7 @@ from .window import close, is_software, native_window, offscreen_window, pixels,
 
 if TYPE_CHECKING:
     from ..model.document.document import Section
+    from ..model.partition.tree import Tree
     from ..model.solid.display import DisplayMesh
 
 
@@ -42,6 +43,7 @@ class Viewer:
         self.window.AddRenderer(self.renderer)
         self.scene = Scene(self.renderer, look)
         self.ground = Ground(self.renderer, look)
+        self.scene.painter.over_ground()
         self.ghosts = Ghosts(self.renderer, look)
         self.overlay = Overlay(self.window, look)
         self.cube = ViewCube(self.window, look, layer=2)
@@ -53,6 +55,7 @@ class Viewer:
         self._picker = Picker()
         self._software: bool | None = None
         self._moving = False
+        self._peeling = False
         self._closed = False
 
     # The window
@@ -73,12 +76,12 @@ class Viewer:
         if self._closed:
             return
         self.ground.update(self.camera)
-        self.scene.before_render(self.camera)
+        self.scene.before_render(self.camera, self.ground.height)
         bounds = union(union(self.scene.visible_bounds(), self.ground.bounds), self.ghosts.bounds)
         camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
         self.overlay.before_render(self.camera, self.size, self.scale)
         self.cube.turn(self.camera)
-        if self._software is None:
+        if self._software is None or self._peeling != self.scene.peeling:
             self._software = is_software(self.window)
             self._smooth()
         self.window.Render()
@@ -149,7 +152,26 @@ class Viewer:
     def set_opacity(self, opacity: float) -> None:
         """Of all faces, 0 to 1; ValueError outside."""
         self.scene.set_opacity(opacity)
-        self._smooth()
+        self.needs_render = True
+
+    def set_hidden_surface(self, mode: str) -> None:
+        """One of look.HIDDEN_SURFACES; ValueError for another. See `show_tree`."""
+        self.scene.set_hidden_surface(mode)
+        self.needs_render = True
+
+    def show_tree(self, tree: "Tree | None", solid_ids: Sequence[str] = ()) -> None:
+        """See `Scene.show_tree`."""
+        self.scene.show_tree(tree, solid_ids)
+        self.needs_render = True
+
+    @property
+    def painting(self) -> bool:
+        """See `Scene.painting`."""
+        return self.scene.painting
+
+    def set_painted(self, count: int | None) -> None:
+        """Draw only the first `count` fragments of the painter's order, None for all."""
+        self.scene.painter.count = count
         self.needs_render = True
 
     def set_ground(self, visible: bool) -> None:
@@ -231,6 +253,7 @@ class Viewer:
     def _smooth(self) -> None:
         """Four samples a pixel on a graphics card, FXAA on the processor and where depths are peeled."""
         if self._software is not None:
-            samples = 0 if self._software or self.scene.opacity < 1.0 else 4
+            self._peeling = self.scene.peeling
+            samples = 0 if self._software or self._peeling else 4
             renderers = [self.renderer, self.overlay.renderer, self.cube.renderer]
             smooth(self.window, renderers, samples, samples == 0 and not (self._moving and self._software))

@@ -24,6 +24,9 @@ BELOW = {
 }
 EMPTY_NAMES = {"utils", "util", "helpers", "helper", "common", "base", "manager", "core", "misc"}
 
+# What bsp.cpp becomes where there is a compiler.
+BINARIES = (".so", ".pyd")
+
 # Scripts for people: shipped as data, written like tests.
 SCRIPTS = ROOT / "resources" / "examples"
 
@@ -132,7 +135,11 @@ def test_the_wheel_holds_every_file_of_the_packages_and_nothing_else(tmp_path):
     for name in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, copy)
     for layer in LAYERS:
-        shutil.copytree(ROOT / layer, copy / layer, ignore=shutil.ignore_patterns("__pycache__", "*.so"))
+        shutil.copytree(
+            ROOT / layer,
+            copy / layer,
+            ignore=shutil.ignore_patterns("__pycache__", *(f"*{suffix}" for suffix in BINARIES)),
+        )
     (copy / "stray.py").touch()
     (copy / "bench").mkdir()
     (copy / "bench" / "stray.py").touch()
@@ -150,9 +157,13 @@ def test_the_wheel_holds_every_file_of_the_packages_and_nothing_else(tmp_path):
     expected = {
         "solidtree/" + path.relative_to(ROOT).as_posix()
         for path in files
-        if path.is_file() and "__pycache__" not in path.parts and path.suffix != ".so"
+        if path.is_file() and "__pycache__" not in path.parts and path.suffix not in (".cpp", *BINARIES)
     }
-    assert names == expected
+    compiled = {name for name in names if Path(name).suffix in BINARIES}
+    assert names - compiled == expected
+    # Built here by the same compiler, or by none.
+    there = [path.name for path in (ROOT / "model" / "partition").glob("bsp.*") if path.suffix in BINARIES]
+    assert compiled == {f"solidtree/model/partition/{name}" for name in there}
 
 
 def loaded_by(statement: str, suspects: set[str]) -> set[str]:

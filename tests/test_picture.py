@@ -1,12 +1,12 @@
 """Pictures by pixels that are predicted, not stored."""
 
-import itertools
 import os
 import subprocess
 import sys
 
 import numpy as np
 import pytest
+from hsr_scenes import read_scene
 from render_meshes import ball, box, drilled
 
 from solidtree.render.camera import Camera, project
@@ -69,65 +69,13 @@ def test_faces_are_numbered_through_all_solids():
 
 def test_owner_maps_of_the_hidden_surface_scenes(corpus):
     """Independent ids: one ray cast in double precision for each pixel, from the corpus."""
-    import json
-
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkIOImage import vtkPNGReader
-
-    folder = corpus / "hsr"
-    scenes = json.loads((folder / "scenes.json").read_text(encoding="utf-8"))["scenes"]
     for name in ("chromium_three_way_split", "degenerate_triangles"):
-        points, triangles, numbers, number = [], [], [], 0
-        for line in (folder / "scenes" / f"{name}.obj").read_text(encoding="utf-8").splitlines():
-            kind, *words = line.split() or [""]
-            if kind == "v":
-                points.append([float(word) for word in words])
-            elif kind in ("g", "o"):
-                number = int(words[0].removeprefix("id"))
-            elif kind == "f":
-                corners = [int(word.split("/")[0]) - 1 for word in words]
-                triangles += [[corners[0], *pair] for pair in itertools.pairwise(corners[1:])]
-                numbers += [number] * (len(corners) - 2)
-        mesh = flat_mesh(np.array(points, np.float32), np.array(triangles, np.int32))
-        for view in scenes[name]["views"]:
-            size, camera = camera_of_scene(view["camera"])
-            found = numbers_of(ids_picture([mesh], size, camera, numbers=[np.array(numbers)]))
-            own, skip = (read_png(folder / "scenes" / view[key], vtkPNGReader, vtk_to_numpy) for key in ("own", "skip"))
-            compared = skip == 0
+        scene = read_scene(corpus / "hsr", name)
+        for view in scene.views:
+            found = numbers_of(ids_picture([scene.mesh], view.size, view.camera, numbers=[scene.numbers]))
+            compared = ~view.skipped
             assert compared.sum() > 0.5 * compared.size
-            assert (found == own)[compared].mean() >= 0.999, (name, view["own"])
-
-
-def flat_mesh(points, triangles):
-    from solidtree.model.solid.display import DisplayMesh
-
-    count = len(triangles)
-    return DisplayMesh(
-        points, np.tile(np.float32([0, 0, 1]), (len(points), 1)), triangles, np.zeros(count, np.int32), (("mesh",),),
-        np.zeros(count, bool), np.arange(count, dtype=np.int32), points[:0], np.zeros((0, 2), np.int32),
-        np.zeros((0, 2), np.int32), np.array([points.min(axis=0), points.max(axis=0)], float),
-        points.astype(float), triangles, np.zeros(1, bool),
-    )  # fmt: skip
-
-
-def camera_of_scene(values) -> tuple[tuple[int, int], Camera]:
-    size = values["width"], values["height"]
-    if values["kind"] == "orthographic":
-        centre, direction = np.array(values["center"], float), np.array(values["direction"], float)
-        eye = tuple(centre - 100.0 * direction)
-        return size, Camera(eye, tuple(centre), tuple(values["up"]), 30.0, True, values["half_height"])
-    eye = np.array(values["eye"], float)
-    target = eye + np.array(values["direction"], float) if "direction" in values else values["target"]
-    return size, Camera(tuple(eye), tuple(target), tuple(values["up"]), values["fovy"])
-
-
-def read_png(path, reader_class, to_numpy) -> np.ndarray:
-    reader = reader_class()
-    reader.SetFileName(str(path))
-    reader.Update()
-    image = reader.GetOutput()
-    width, height, _ = image.GetDimensions()
-    return np.flipud(to_numpy(image.GetPointData().GetScalars()).reshape(height, width))
+            assert (found == view.owners)[compared].mean() >= 0.999, (name, view.name)
 
 
 def test_light_on_a_face_is_lamberts():

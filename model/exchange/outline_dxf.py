@@ -22,7 +22,7 @@ def dxf_of(outlines: Sequence[NamedOutline]) -> str:
     space = drawing.modelspace()
     taken: set[str] = {"0", "DEFPOINTS"}  # layers' names are compared without regard to case
     for named in outlines:
-        name = _layer_name(named.name, taken)
+        name = layer_name(named.name, taken)
         taken.add(name.upper())
         layer = drawing.layers.add(name)
         if named.colour is not None:
@@ -34,7 +34,7 @@ def dxf_of(outlines: Sequence[NamedOutline]) -> str:
     return text.getvalue()
 
 
-def _layer_name(name: str, taken: set[str]) -> str:
+def layer_name(name: str, taken: set[str]) -> str:
     """The solid's name without what layers' names may not hold, unlike all that are taken."""
     wanted = re.sub(r'[<>/\\":;?*|=`,\']', "_", one_line(name)).strip()[:200] or "Section"
     if wanted.upper() not in taken:

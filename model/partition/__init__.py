@@ -1,4 +1,4 @@
 """The BSP tree (Fuchs, Kedem and Naylor 1980): hidden surfaces, rays, lines of sight. NumPy, and one optional C++ file.
 
-May import `solid.display` for types, nothing else of the model.
+May import `solid.display` for types and `document.errors`, nothing else of the model.
 """

@@ -29,26 +29,31 @@ def convex_groups(
     `known` (2 * owners,) of which the leaf is convex by its kind. The others are looked at: a group is convex when none
     of its vertices lies before any of its planes (behind, for a subtracted one).
     """
-    group = np.full(len(corners), -1, np.int32)
-    side = np.zeros(len(corners), np.int8)
-    size = float(np.linalg.norm(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
-    order = np.argsort(wanted, kind="stable")
-    ordered = np.asarray(wanted)[order]
-    firsts = np.flatnonzero(np.diff(ordered, prepend=-2))
-    number = 0
-    for first, last in zip(firsts, np.append(firsts[1:], len(order)), strict=True):
-        value = int(ordered[first])
-        if value < 0:
-            continue
-        members = order[first:last]
-        sign = -1 if value % 2 else 1
-        if known[value] or _mutually_behind(
-            vertices, corners[members], planes[np.unique(plane_of[members])], sign, size
-        ):
-            group[members] = number
-            side[members] = sign
-            number += 1
-    return group, side
+    wanted = np.asarray(wanted)
+    values = np.where(wanted >= 0, wanted, len(known))  # the last one stands for "nobody knows"
+    there = np.zeros(len(known) + 1, bool)
+    there[values] = True
+    convex = np.append(known, False) & there
+    open_ = there & ~convex
+    open_[-1] = False
+    if open_.any():
+        size = diagonal(vertices)
+        some = np.flatnonzero(open_[values])
+        some = some[np.argsort(values[some], kind="stable")]
+        firsts = np.flatnonzero(np.diff(values[some], prepend=-1))
+        for members in np.split(some, firsts[1:]):
+            value = int(values[members[0]])
+            sign = -1 if value % 2 else 1
+            used = planes[np.unique(plane_of[members])]
+            convex[value] = _mutually_behind(vertices, corners[members], used, sign, size)
+    number = np.where(convex, np.cumsum(convex) - 1, -1).astype(np.int32)
+    sides = np.where(convex, 1 - 2 * (np.arange(len(convex)) % 2), 0).astype(np.int8)
+    return number[values], sides[values]
+
+
+def diagonal(points: Floats) -> float:
+    """That of the box around points (n, 3)."""
+    return float(np.linalg.norm([np.ptp(points[:, axis]) for axis in range(3)])) if len(points) else 0.0
 
 
 def _mutually_behind(vertices: Floats, corners: Indices, planes: Floats, sign: int, size: float) -> bool:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .convex import convex_groups
+from .convex import convex_groups, diagonal
 
 if TYPE_CHECKING:
     from ..solid.display import DisplayMesh
@@ -45,7 +45,7 @@ class Faces:
     @property
     def size(self) -> float:
         """The diagonal of the box around all points."""
-        return float(np.linalg.norm(np.ptp(self.points, axis=0))) if len(self.points) else 0.0
+        return diagonal(self.points)
 
 
 def faces_of_polygons(polygons: Sequence[ArrayLike]) -> Faces:
@@ -149,34 +149,49 @@ def facet_planes(vertices: Floats, corners: Indices, facet: Indices) -> tuple[Fl
     Normal and offset are means over the facet, weighted by area: a sliver's own normal is worth nothing. A facet that
     is not flat has a plane for each triangle instead.
     """
-    a, b, c = (vertices[corners[:, corner]] for corner in range(3))
-    areas = np.cross(b - a, c - a)
+    a, b, c = (np.ascontiguousarray(vertices.take(corners[:, i], axis=0).T) for i in range(3))  # (3, t)
+    (x, y, z), (u, v, w) = b - a, c - a
+    areas = np.array([y * w - z * v, z * u - x * w, x * v - y * u])
     middles = (a + b + c) / 3.0
     count = int(facet.max(initial=-1)) + 1
     planes = _fitted(areas, middles, facet, count)
-    size = float(np.linalg.norm(np.ptp(vertices, axis=0))) if len(vertices) else 0.0
-    own = planes[facet]
-    away = np.max([np.abs(np.einsum("ij,ij->i", own[:, :3], x) - own[:, 3]) for x in (a, b, c)], axis=0)
+    size = diagonal(vertices)
+    own = np.ascontiguousarray(planes.T).take(facet, axis=1)
     bent = np.zeros(count, bool)
-    bent[facet[away > FLAT * size]] = True
+    for corner in (a, b, c):
+        bent[facet[np.abs(heights_of(corner, own)) > FLAT * size]] = True
     loose = np.flatnonzero(bent[facet])
     if not len(loose):
         return planes, facet.astype(np.int32)
     plane_of = facet.astype(np.int64)
     plane_of[loose] = count + np.arange(len(loose))
-    singles = _fitted(areas[loose], middles[loose], np.arange(len(loose)), len(loose))
+    singles = _fitted(areas[:, loose], middles[:, loose], np.arange(len(loose)), len(loose))
     return np.concatenate([planes, singles]), plane_of.astype(np.int32)
 
 
 def _fitted(areas: Floats, middles: Floats, plane_of: NDArray[np.integer], count: int) -> Floats:
-    """(count, 4) planes from the area vectors (t, 3) and the middles (t, 3) of their triangles."""
-    sums = np.column_stack([np.bincount(plane_of, areas[:, i], count) for i in range(3)]).reshape(count, 3)
-    length = np.linalg.norm(sums, axis=1)
-    normals = np.where(length[:, None] > 0.0, sums / np.where(length > 0.0, length, 1.0)[:, None], (0.0, 0.0, 1.0))
-    weights = np.linalg.norm(areas, axis=1) + 1e-300
-    heights = np.bincount(plane_of, weights * np.einsum("ij,ij->i", normals[plane_of], middles), count)
+    """(count, 4) planes from the area vectors (3, t) and the middles (3, t) of their triangles."""
+    sums = np.array([np.bincount(plane_of, column, count) for column in areas], float)
+    length = np.sqrt(_dots(sums, sums))
+    normals = np.where(length > 0.0, sums / np.where(length > 0.0, length, 1.0), [[0.0], [0.0], [1.0]])
+    weights = np.sqrt(_dots(areas, areas)) + 1e-300
+    offsets = np.bincount(plane_of, weights * _dots(normals.take(plane_of, axis=1), middles), count)
     total = np.bincount(plane_of, weights, count)
-    return np.column_stack([normals, heights / np.where(total > 0.0, total, 1.0)])
+    return np.column_stack((*normals, offsets / np.where(total > 0.0, total, 1.0)))
+
+
+def _dots(one: Floats, other: Floats) -> Floats:
+    """(n,) the inner products of vectors (3, n)."""
+    return one[0] * other[0] + one[1] * other[1] + one[2] * other[2]
+
+
+def heights_of(points: Floats, planes: Floats) -> Floats:
+    """(n,) how far each of points (3, n) lies before its plane of planes (4, n)."""
+    height = points[0] * planes[0]
+    height += points[1] * planes[1]
+    height += points[2] * planes[2]
+    height -= planes[3]
+    return height
 
 
 def _is_convex(ring: Floats) -> bool:

@@ -7,94 +7,146 @@ that overlap in the picture the farther one faces away, or, seen from inside, th
 
 from __future__ import annotations
 
+from functools import cached_property
+
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from . import native
 from .faces import Floats
+from .polygons import Numbers, spread
 from .tree import CONVEX, INNER, Tree
-
-Numbers = NDArray[np.int64]
 
 
 class Sorter:
     """Puts the fragments of a tree, or the triangles that they are fanned into, into order; keeps what no eye changes.
 
     `fans` (t, 3) are places in `tree.corners`; triangle i is a piece of the fragment `fragment_of[i]`. Both go through
-    the fragments in their own order.
+    the fragments in their own order. `compiled` asks for the compiled order or for NumPy's; None takes the better one
+    that is there.
     """
 
-    def __init__(self, tree: Tree) -> None:
+    def __init__(self, tree: Tree, compiled: bool | None = None) -> None:
         self.tree = tree
+        self._compiled: native.Order | None = None
+        self.fans: Numbers
+        self.fragment_of: Numbers
+        if native.available() if compiled is None else compiled:
+            self._compiled = native.Order(tree)
+            self.fans, self.fragment_of = self._compiled.fans, self._compiled.fragment_of
+            return
         sizes = np.diff(tree.starts).astype(np.int64) - 2
-        self.fragment_of: Numbers = np.repeat(np.arange(len(sizes)), sizes)
-        begin = tree.starts[:-1].astype(np.int64)[self.fragment_of]
         self._fan_starts = np.concatenate(([0], np.cumsum(sizes)))
+        self.fragment_of = np.repeat(np.arange(len(sizes)), sizes)
+        begin = tree.starts[:-1].astype(np.int64)[self.fragment_of]
         step = np.arange(len(begin)) - self._fan_starts[:-1][self.fragment_of] + 1
-        self.fans: Numbers = np.column_stack((begin, begin + step, begin + step + 1)).astype(np.int64)
-        self._levels = tree.levels()
-        reached = np.concatenate(self._levels) if self._levels else np.zeros(0, np.int64)
-        self._node_of = np.full(len(sizes), -1, np.int64)
-        counts = tree.count[reached].astype(np.int64)
-        owned = np.repeat(tree.first[reached] - np.cumsum(counts) + counts, counts) + np.arange(int(counts.sum()))
-        self._node_of[owned] = np.repeat(reached, counts)
+        self.fans = np.column_stack((begin, begin + step, begin + step + 1))
 
     def fragments(self, eye: ArrayLike, parallel: bool = False, front_first: bool = False) -> Numbers:
         """(f,) the fragments from back to front, or from front to back.
 
         `eye` (3,) is a point, or with `parallel` the direction towards the eye.
         """
-        return self._ordered(eye, parallel, np.ones(len(self._node_of), np.int64), front_first, False)
+        if self._compiled:
+            return self._compiled.fragments(eye, parallel, front_first)
+        found = self._of_fragments.ordered(np.asarray(eye, float), parallel)
+        return found[::-1] if front_first else found
 
     def triangles(self, eye: ArrayLike, parallel: bool = False, front_first: bool = False) -> Numbers:
         """(t,) the triangles of `fans` in the same order."""
-        return self._ordered(eye, parallel, np.diff(self._fan_starts), front_first, True)
+        if self._compiled:
+            return self._compiled.triangles(eye, parallel, front_first)
+        found = self._of_triangles.ordered(np.asarray(eye, float), parallel)
+        return found[::-1] if front_first else found
 
-    def _ordered(self, eye: ArrayLike, parallel: bool, sizes: Numbers, front_first: bool, fanned: bool) -> Numbers:
-        tree = self.tree
-        if tree.root < 0:
+    @cached_property
+    def _of_fragments(self) -> _Layout:
+        return _Layout(self.tree, np.arange(len(self.tree.source) + 1))
+
+    @cached_property
+    def _of_triangles(self) -> _Layout:
+        return _Layout(self.tree, self._fan_starts)
+
+
+class _Layout:
+    """The reachable nodes level by level, and the pieces that they own in the same order: fragments or triangles.
+
+    `piece_starts` (f + 1,) says where the pieces of each fragment begin.
+    """
+
+    def __init__(self, tree: Tree, piece_starts: Numbers) -> None:
+        self._tree = tree
+        levels = tree.levels()
+        reached = np.concatenate(levels) if levels else np.zeros(0, np.int64)
+        self._plane = tree.plane[reached]
+        place = np.full(len(tree.kind) + 1, len(reached))  # of a node among the reached; the last: nothing there
+        place[reached] = np.arange(len(reached))
+
+        first, count = tree.first[reached].astype(np.int64), tree.count[reached].astype(np.int64)
+        fragments = spread(first, count)
+        pieces = np.diff(piece_starts)[fragments]
+        self._pieces = spread(piece_starts[fragments], pieces)
+        self._plane_of = np.repeat(tree.faces.plane_of[tree.source[fragments]], pieces)
+        before = np.concatenate(([0], np.cumsum(pieces)))
+        ends = before[np.cumsum(count)] if len(count) else count
+        self._begin = before[np.cumsum(count) - count]  # of the pieces of each node, then of their end
+        self._own = ends - self._begin
+        kind = np.repeat(tree.kind[reached], self._own)
+        self._leafy, self._convex = kind != INNER, kind == CONVEX
+        self._some_leaf = bool(self._leafy.any())
+
+        # Pieces in the sub-trees behind and before each node; and each node's parent, level by level.
+        self._back, self._front = np.zeros(len(reached), np.int64), np.zeros(len(reached), np.int64)
+        parent = np.zeros(len(reached), np.int64)
+        self._is_front = np.zeros(len(reached), bool)
+        self._spans: list[tuple[int, int]] = []
+        below = np.append(self._own, 0)
+        end = len(reached)
+        for level in reversed(levels):
+            begin = end - len(level)
+            back, front = place[tree.back[level]], place[tree.front[level]]
+            self._back[begin:end], self._front[begin:end] = below[back], below[front]
+            below[begin:end] += below[back] + below[front]
+            for child, ahead in ((back, False), (front, True)):
+                there = child < len(reached)
+                parent[child[there]] = np.arange(begin, end)[there]
+                self._is_front[child[there]] = ahead
+            self._spans.append((begin, end))
+            end = begin
+        self._spans.reverse()
+        self._parent = parent
+
+    def ordered(self, towards: Floats, parallel: bool) -> Numbers:
+        if not len(self._pieces):
             return np.zeros(0, np.int64)
-        towards = np.asarray(eye, float)
-        before = heights(tree.plane, towards, parallel) >= 0.0
-        facing = (heights(tree.faces.planes, towards, parallel) > 0.0)[tree.faces.plane_of][tree.source]
-
-        # Where each sub-tree and each node's own fragments begin, from the sizes of sub-trees, level by level.
-        nodes = len(tree.kind)
-        reached = self._node_of >= 0
-        own = np.bincount(self._node_of[reached], sizes[reached], nodes).astype(np.int64)
-        below = np.append(own, 0)  # the last one stands for "nothing there"
-        for level in reversed(self._levels):
-            below[level] += below[tree.front[level]] + below[tree.back[level]]
-        begin = np.zeros(nodes + 1, np.int64)
-        own_begin = np.zeros(nodes, np.int64)
-        for level in self._levels:
-            far = np.where(before[level], tree.back[level], tree.front[level])
-            near = np.where(before[level], tree.front[level], tree.back[level])
-            at = begin[level]
-            begin[far] = at
-            own_begin[level] = at + below[far]
-            begin[near] = own_begin[level] + own[level]
+        # Where each node's sub-tree begins in the picture: at its parent's begin, behind what is farther there.
+        ahead = heights(self._plane, towards, parallel) >= 0.0
+        farther = np.where(ahead, self._back, self._front)
+        above = self._parent
+        shift = np.where(self._is_front == ahead[above], farther[above] + self._own[above], 0)
+        begin = np.zeros(len(above), np.int64)
+        for first, last in self._spans[1:]:
+            begin[first:last] = begin[above[first:last]] + shift[first:last]
+        begin += farther
 
         # Within a node: inner ones as they come, in leaves what is farther first.
-        late = facing == (tree.kind == CONVEX)[self._node_of]
-        late &= (tree.kind != INNER)[self._node_of]
-        early = np.where(late | ~reached, 0, sizes)
-        lately = np.where(late & reached, sizes, 0)
-        before_early, before_late = np.cumsum(early) - early, np.cumsum(lately) - lately
-        first = np.minimum(tree.first, max(len(sizes) - 1, 0)).astype(np.int64)
-        node = self._node_of
-        early_of_node = np.bincount(node[reached], early[reached], nodes).astype(np.int64)
-        place = own_begin[node] + np.where(
-            late, early_of_node[node] + before_late - before_late[first][node], before_early - before_early[first][node]
-        )
-        total = int(below[tree.root])
-        result = np.empty(total, np.int64)
-        if not fanned:
-            result[place[reached]] = np.flatnonzero(reached)
+        piece = np.arange(len(self._pieces))
+        if self._some_leaf:
+            facing = heights(self._tree.faces.planes, towards, parallel) > 0.0
+            nearer = (facing[self._plane_of] == self._convex) & self._leafy
+            nearer_before = np.zeros(len(piece) + 1, np.int64)
+            np.cumsum(nearer, out=nearer_before[1:])
+            earlier = nearer_before[self._begin]
+            nearer_own = nearer_before[self._begin + self._own] - earlier
+            place_nearer = nearer_before[:-1] + np.repeat(begin + self._own - nearer_own - earlier, self._own)
+            piece -= nearer_before[:-1]
+            piece += np.repeat(begin - self._begin + earlier, self._own)
+            np.copyto(piece, place_nearer, where=nearer)
         else:
-            kept = reached[self.fragment_of]
-            step = np.arange(len(self.fragment_of)) - self._fan_starts[:-1][self.fragment_of]
-            result[(place[self.fragment_of] + step)[kept]] = np.flatnonzero(kept)
-        return result[::-1] if front_first else result
+            piece += np.repeat(begin - self._begin, self._own)
+        found = np.empty(len(piece), np.int64)
+        found[piece] = self._pieces
+        return found
 
 
 def heights(planes: Floats, towards: Floats, parallel: bool) -> Floats:

@@ -21,6 +21,7 @@ def build_in_order(faces: Faces, order: Sequence[int] | None = None) -> Tree:
     epsilon = EPSILON * faces.size
     points = [np.array(point) for point in faces.points]
     planes: list[Floats] = []
+    plane_of: list[int] = []  # the number of each among the faces' planes
     children: list[list[int]] = []  # [back, front]
     owned: list[list[tuple[int, list[int]]]] = []
     for face in range(faces.count) if order is None else order:
@@ -32,6 +33,7 @@ def build_in_order(faces: Faces, order: Sequence[int] | None = None) -> Tree:
             parent = parents.pop()
             if node < 0:
                 planes.append(faces.planes[faces.plane_of[face]])
+                plane_of.append(int(faces.plane_of[face]))
                 children.append([-1, -1])
                 owned.append([(face, ring)])
                 if parent >= 0:
@@ -39,7 +41,7 @@ def build_in_order(faces: Faces, order: Sequence[int] | None = None) -> Tree:
                 continue
             plane = planes[node]
             heights = np.array([points[i] @ plane[:3] - plane[3] for i in ring])
-            if (np.abs(heights) <= epsilon).all():
+            if plane_of[node] == faces.plane_of[face] or (np.abs(heights) <= epsilon).all():
                 owned[node].append((face, ring))
                 continue
             for side, piece in enumerate(cut(ring, heights, epsilon, points)):

@@ -98,7 +98,9 @@ def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
         surface = open_surface(root)
         if surface is None:
             return None
-        mesh = Mesh64(surface[0], surface[1].astype(np.uint64), run_index=[0, 3 * len(surface[1])], run_original_id=[0])
+        triangles = surface[1].astype(np.uint64)
+        runs = np.array([0, 3 * len(triangles)], np.uint64)
+        mesh = Mesh64(surface[0], triangles, run_index=runs, run_original_id=np.zeros(1, np.uint32))
         return display_mesh(mesh, np.zeros(1, dtype=np.int32), tuple(occurrence.path for occurrence in found))
     mesh = solid.to_mesh64()
     owner = owners_of_runs(mesh, root, evaluator.originals, found)

@@ -15,13 +15,25 @@ from ..document.document import Document, Section
 from ..document.errors import Refusal
 from ..solid.tessellation import DEFAULT_TOLERANCE
 from .job import Job, request_of
-from .messages import Cancelled, Died, Evaluated, Examined, Exported, LaneMessage, Progress, Started
+from .messages import (
+    Cancelled,
+    Died,
+    Drawn,
+    Evaluated,
+    Examined,
+    Exported,
+    LaneMessage,
+    Partitioned,
+    Progress,
+    Started,
+)
 from .process import WorkerProcess, reason_of
 from .shown import Message, Part, Pictures, Shown
 
 if TYPE_CHECKING:
     from multiprocessing.connection import Connection
 
+    from ..drafting.plan import Plan
     from ..measuring.measure import Measures
     from ..solid.display import DisplayMesh
 
@@ -35,7 +47,7 @@ MOST_SURFACES = 64
 
 
 class Lane:
-    """Evaluates and exports in a process of its own. `on_message` is called from the lane's thread.
+    """Evaluates, exports, draws and sorts in a process of its own. `on_message` is called from the lane's thread.
 
     A newer evaluation supersedes an older one. The pictures of the last solids are kept here by key, `kept` bytes of
     them, so that going back to them asks nobody.
@@ -51,6 +63,9 @@ class Lane:
         self._lock = threading.Lock()
         self._evaluation: Job | None = None
         self._exports: list[Job] = []
+        self._partition: Job | None = None
+        self._drawing: Job | None = None
+        self._undrawn = 0  # drawings up to this number are no longer wanted
         self._examination: Job | None = None
         self._preparation: Job | None = None
         self._surfaces: OrderedDict[bytes, DisplayMesh | None] = OrderedDict()
@@ -110,6 +125,47 @@ class Lane:
         self._wake()
         return number
 
+    def partition(self, meshes: tuple[DisplayMesh, ...]) -> int:
+        """Ask for the BSP tree of the triangles of these meshes, one after the other; the answer is a Partitioned.
+
+        A newer question takes the place of this one, at work or waiting; one for no meshes ends it.
+        """
+        with self._lock:
+            self._number += 1
+            self._partition = Job(self._number, "partition", Document(), 0.0, meshes=meshes)
+            number = self._number
+        self._wake()
+        return number
+
+    def draw(
+        self,
+        document: Document,
+        plan: Plan,
+        tolerance: float = DEFAULT_TOLERANCE,
+        solid: str | None = None,
+        path: Path | str = "",
+    ) -> int:
+        """Ask for the page that is drawn of a document; the answer is a Drawn. A newer question takes its place.
+
+        With a path the page is written there, whatever is asked for meanwhile; the answer is an Exported.
+        """
+        with self._lock:
+            self._number += 1
+            job = Job(self._number, "draw", document, tolerance, str(path), solid, plan=plan)
+            if path:
+                self._exports.append(job)
+            else:
+                self._drawing = job
+            number = self._number
+        self._wake()
+        return number
+
+    def stop_drawing(self) -> None:
+        """Give up the page that is being drawn, or waits; no answer comes."""
+        with self._lock:
+            self._undrawn, self._drawing = self._number, None
+        self._wake()
+
     def examine(self, document: Document, ids: tuple[str, ...], tolerance: float = DEFAULT_TOLERANCE) -> int:
         """Ask for nodes by themselves, as ghosts and measures need them; a newer question takes the place of this one.
 
@@ -137,7 +193,7 @@ class Lane:
             self._cancelled = True
             self._evaluation = None
             self._exports.clear()
-            self._examination = self._preparation = None
+            self._partition = self._drawing = self._examination = self._preparation = None
             # Not left to the thread, which waits as long as the worker does not read what it is being sent.
             if self._current is not None and self._process is not None:
                 self._killed = True
@@ -199,6 +255,10 @@ class Lane:
                 job, self._evaluation = self._evaluation, None
             elif self._exports:
                 job = self._exports.pop(0)
+            elif self._drawing is not None:
+                job, self._drawing = self._drawing, None
+            elif self._partition is not None:
+                job, self._partition = self._partition, None
             elif self._examination is not None:
                 job, self._examination = self._examination, None
             else:
@@ -261,14 +321,20 @@ class Lane:
         return None
 
     def _given_up(self, job: Job) -> bool:
-        """Whether a newer evaluation takes the place of what is at work."""
+        """Whether something newer takes the place of what is at work."""
+        if job.word == "partition":
+            return self._partition is not None
+        if job.word == "draw":
+            return not job.path and (self._drawing is not None or job.number <= self._undrawn)
         newer = self._evaluation
         return newer is not None and job.word != "export" and (newer.supersedes or job.supersedes)
 
     def _wait_for_a_request(self) -> None:
         """A worker that cannot even start is not started again before somebody asks for something."""
         assert self._bell is not None
-        while not self._closed and self._evaluation is None and not self._exports:
+        while not self._closed and not self._exports:
+            if any(job is not None for job in (self._evaluation, self._partition, self._drawing)):
+                return
             self._bell.recv()
 
     def _after_cancel(self, job: Job) -> None:
@@ -324,6 +390,12 @@ class Lane:
             case ("exported", number, path) if job is not None and number == job.number:
                 self._tell(Exported(number, path, None))
                 return True
+            case ("drawn", number, page, messages) if job is not None and number == job.number:
+                self._tell(Drawn(number, page, messages))
+                return True
+            case ("partitioned", number, tree, seconds) if job is not None and number == job.number:
+                self._tell(Partitioned(number, tree, seconds))
+                return True
             case ("refused", number, reason) if job is not None and number == job.number:
                 self._refuse(job, reason)
                 return True
@@ -340,7 +412,11 @@ class Lane:
         return parts
 
     def _refuse(self, job: Job, reason: str) -> None:
-        if job.word == "export":
+        if job.path:
             self._tell(Exported(job.number, job.path, reason))
+        elif job.word == "draw":
+            self._tell(Drawn(job.number, None, (), reason))
+        elif job.word == "partition":
+            self._tell(Partitioned(job.number, None, 0.0, reason))
         elif job.word == "evaluate":
             self._tell(Evaluated(job.number, Shown({}, (Message("", "", reason, True),)), 0.0, 0))

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from .shown import Part, Shown
+from .shown import Message, Part, Shown
+
+if TYPE_CHECKING:
+    from ..drafting.page import Page
+    from ..partition.tree import Tree
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +57,26 @@ class Exported:
 
 
 @dataclass(frozen=True, slots=True)
+class Partitioned:
+    """The answer to `Lane.partition`; `fault` says in words why there is no tree."""
+
+    request: int
+    tree: Tree | None
+    seconds: float
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Drawn:
+    """The answer to `Lane.draw`: the page, and what there is to tell of nodes; or `fault`, why there is no page."""
+
+    request: int
+    page: Page | None
+    messages: tuple[Message, ...]
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Cancelled:
     """The request was given up because the user asked for it."""
 
@@ -67,4 +92,4 @@ class Died:
     given_up: bool
 
 
-LaneMessage = Started | Progress | Evaluated | Examined | Exported | Cancelled | Died
+LaneMessage = Started | Progress | Evaluated | Examined | Exported | Partitioned | Drawn | Cancelled | Died

@@ -9,7 +9,7 @@ import sys
 import time
 from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..document.document import Section
 from ..document.errors import Refusal
@@ -17,16 +17,22 @@ from ..document.nodes import Difference, Node
 from ..document.resolve import Resolver
 from ..document.table import Reuse, from_table
 from ..document.tree import change, trail
+from ..solid.display import DisplayMesh
 from ..solid.entry import Superseded
 from ..solid.evaluate import Evaluator
 from ..solid.examine import examine
 from ..solid.results import display_of, result_of
 from .shown import Message, shown_key
 
+if TYPE_CHECKING:
+    from ..drafting.drawn import Draughts
+    from ..drafting.plan import Plan
+
 INTERVAL = 0.1
 """Seconds between two reports of progress."""
 NICENESS = 5
 """How far the worker stands back, in the steps of Unix."""
+SORTING = "Sorting faces"
 
 
 def work(connection: Connection, store_folder: str) -> None:
@@ -65,6 +71,7 @@ class _Worker:
         self._evaluator = Evaluator(incremental=True)
         self._resolver = Resolver()
         self._reuse: Reuse = {}
+        self._draughts: tuple[tuple[Any, ...], Draughts] | None = None
 
     def answer(self, request: tuple[Any, ...]) -> None:
         word, number, *arguments = request
@@ -138,6 +145,36 @@ class _Worker:
             export_section(from_table(table), section, Path(path), tolerance, solid, progress)
         return "exported", number, path
 
+    def _partition(self, number: int, meshes: tuple[DisplayMesh, ...]) -> tuple[Any, ...]:
+        """The BSP tree of all triangles."""
+        from ..partition.build import build
+        from ..partition.faces import faces_of_meshes
+
+        start = time.perf_counter()
+        progress = _Progress(self._connection, number, sum(len(mesh.corners) for mesh in meshes))
+        try:
+            tree = build(faces_of_meshes(meshes), progress=lambda done, total: progress.tell(done, total, SORTING))
+        except (ValueError, OverflowError) as error:
+            raise Refusal(str(error)) from error
+        return "partitioned", number, tree, time.perf_counter() - start
+
+    def _draw(
+        self, number: int, table: dict[str, Any], tolerance: float, solid: str | None, plan: Plan, path: str
+    ) -> tuple[Any, ...]:
+        """The page of a plan, or where it was written; what the last plan had of this document is kept."""
+        from ..drafting.drawing_file import write_page
+        from ..drafting.drawn import Draughts
+
+        progress = _Progress(self._connection, number, len(table["nodes"]))
+        asked = (table, tolerance, solid)
+        if self._draughts is None or self._draughts[0] != asked:
+            self._draughts = (asked, Draughts(from_table(table), tolerance, solid))
+        drawn = self._draughts[1].page(plan, progress, lambda label, share: progress.tell(int(100 * share), 100, label))
+        if not path:
+            return "drawn", number, drawn.page, drawn.messages
+        write_page(path, drawn.page)
+        return "exported", number, path
+
 
 class _Progress:
     """Reports now and then, and stops when a newer request waits."""
@@ -149,6 +186,10 @@ class _Progress:
 
     def __call__(self, label: str) -> None:
         self._done += 1
+        self.report(label)
+
+    def tell(self, done: int, total: int, label: str) -> None:
+        self._done, self._total = done, total
         self.report(label)
 
     def report(self, label: str) -> None:

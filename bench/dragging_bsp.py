@@ -1,0 +1,152 @@
+"""How many pictures a drag shows with a BSP tree, against the z-buffer in the same run and window.
+
+One of twenty parts that cross one another is dragged by its arrow, by turns in both modes, while a thread sends the
+pointer's moves as in `dragging`. Exits with 1 where the BSP tree shows less than half of the pictures; what is drawn
+with the z-buffer, because there is no tree in time, does not count.
+"""
+
+from __future__ import annotations
+
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from dragging import LEFT, NONE, RATE, mouse
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPointF, QSettings, QTimer
+
+SECONDS, WARM = 6.0, 2.0  # of a drag, and those at its beginning that do not count: what stays is being sorted
+ROUNDS = 2
+BOUND = 0.5
+PARTS = 20
+
+
+def parts():
+    """Blocks with a hole, a knob and a bar; the same triangles at any tolerance."""
+    from solidtree.model.script import box, cylinder, document_of, sphere
+
+    rng = np.random.default_rng(20)
+
+    def part():
+        block = box(10, 8, 6).at(-5, -4, -3) - cylinder(radius=2, height=20, segments=64).at(0, 0, -10)
+        knob, bar = sphere(3.2, segments=56).at(4, 2, 2), cylinder(radius=1, height=16, segments=48).at(-3, -2, -8)
+        x, y, z = rng.uniform(0, 360, 3)
+        return (block + knob + bar).turned(x=x).turned(y=y).turned(z=z).at(*rng.uniform(-12, 12, 3))
+
+    return document_of(*(part() for _ in range(PARTS)))
+
+
+def until(done: Callable[[], bool], seconds: float = 60.0) -> None:
+    end = time.perf_counter() + seconds
+    while not done() and time.perf_counter() < end:
+        loop = QEventLoop()  # which sleeps between events, as the program's own does
+        QTimer.singleShot(50, loop.quit)
+        loop.exec()
+
+
+class Drags:
+    """One window, and the drags in it."""
+
+    def __init__(self, home: str) -> None:
+        from solidtree.gui.application import spare_collections
+        from solidtree.gui.settings import Settings
+        from solidtree.gui.window import MainWindow
+        from solidtree.model.editing.session import Session
+
+        settings = Settings(QSettings(str(Path(home, "settings.ini")), QSettings.Format.IniFormat))
+        self.window = window = MainWindow(Session(parts()), settings)
+        window.resize(1280, 820)
+        window.show()
+        window.start()
+        until(lambda: window.viewport.viewer is not None and not window.evaluation.waiting)
+        spare_collections()
+        self.root = window.session.document.solids[0]
+        window.handles.set_snapping(False)
+        window.session.select([self.root.id])
+
+    @property
+    def triangles(self) -> int:
+        assert self.window.viewport.viewer is not None
+        return sum(len(mesh.triangles) for mesh in self.window.viewport.viewer.scene.meshes.values())
+
+    def rate(self, mode: str) -> tuple[float, float, float]:
+        """Pictures a second, of them with another mesh, and of those the share that was drawn in the tree's order."""
+        from solidtree.render.camera import project
+
+        window, hidden = self.window, self.window.hidden_surfaces
+        viewport, viewer = window.viewport, window.viewport.viewer
+        assert viewer is not None
+        hidden.set_mode(mode)
+        start = time.perf_counter()
+        until(lambda: time.perf_counter() > start + 2.0 and hidden.at_rest and not window.evaluation.waiting)
+        middle = self.root.placement.matrix()[:, 3]
+        ends = project(viewer.camera, [middle, middle + np.array((1.0, 0.0, 0.0))], viewer.size)[:, :2]
+        along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
+        grip = ends[0] + 60.0 * along
+        pictures: list[float] = []
+        fresh: list[tuple[float, bool]] = []
+        seen = viewport.view_changed.connect(lambda: pictures.append(time.perf_counter()))
+        shown = window.evaluation.shown.connect(lambda *_: fresh.append((time.perf_counter(), viewer.painting)))
+        stop = threading.Event()
+
+        def send(kind: QEvent.Type, place: np.ndarray, button: object, held: object, stamp: int) -> None:
+            QCoreApplication.postEvent(viewport, mouse(kind, QPointF(*place), button, held, stamp))  # type: ignore[arg-type]
+
+        def hand() -> None:
+            send(QEvent.Type.MouseMove, grip, NONE, NONE, 1)
+            send(QEvent.Type.MouseButtonPress, grip, LEFT, LEFT, 2)
+            begin, number = time.perf_counter(), 3
+            while not stop.wait(1.0 / RATE):
+                turn = 40.0 * np.sin(2.0 * (time.perf_counter() - begin))
+                send(QEvent.Type.MouseMove, grip + turn * along, NONE, LEFT, number)
+                number += 1
+
+        thread = threading.Thread(target=hand)
+        thread.start()
+        start = time.perf_counter()
+        until(lambda: time.perf_counter() > start + SECONDS)
+        stop.set()
+        thread.join()
+        if not window.session.previewing:
+            raise SystemExit("the arrow was not caught: nothing was dragged")
+        window.handles.cancel()
+        viewport.view_changed.disconnect(seen)
+        window.evaluation.shown.disconnect(shown)
+        begin, end, span = start + WARM, start + SECONDS, SECONDS - WARM
+        counted = len([at for at in pictures if begin < at < end])
+        painted = [painting for at, painting in fresh if begin < at < end]
+        return counted / span, len(painted) / span, sum(painted) / max(len(painted), 1)
+
+    def close(self) -> None:
+        self.window.session.mark_saved(self.window.session.document)
+        self.window.close()
+
+
+def main() -> int:
+    from solidtree.gui.application import make_application
+    from solidtree.model.partition import native
+
+    application = make_application()
+    home = tempfile.TemporaryDirectory(prefix="solidtree-bench-")
+    drags = Drags(home.name)
+    rates: dict[str, list[tuple[float, float, float]]] = {"zbuffer": [], "bsp": []}
+    for _ in range(ROUNDS):
+        for mode, seen in rates.items():
+            seen.append(drags.rate(mode))
+    print(f"dragging one of {PARTS} crossing parts, {drags.triangles:,} triangles, {native.describe()}")
+    print(f"{'':12} {'pictures a second':>18} {'with another mesh':>18} {'in order of the tree':>20}")
+    means = {mode: np.mean(seen, axis=0) for mode, seen in rates.items()}
+    for mode, (pictures, meshes, painting) in means.items():
+        print(f"{mode:12} {pictures:18.1f} {meshes:18.1f} {painting:20.0%}")
+    ratio = float(means["bsp"][1] * means["bsp"][2] / means["zbuffer"][1])
+    print(f"those in order of the tree against z-buffer: {ratio:.2f} (at least {BOUND})")
+    drags.close()
+    del application
+    return 0 if ratio >= BOUND else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
