@@ -75,13 +75,23 @@ def _command_parser() -> argparse.ArgumentParser:
         prog="solidtree",
         description="A modeller in which a solid is a tree. Without a command: solidtree [FILE ...] opens the window.",
     )
-    parser.add_argument("--version", action="version", version=f"solidtree {_version()}")
+    parser.add_argument(
+        "--version", action=_Version, nargs=0, help="the version, and which BSP builder is in use, then exit"
+    )
     commands = parser.add_subparsers(metavar="COMMAND", required=True, parser_class=_Parser)
     for name, (build, run, what) in _COMMANDS.items():
         command = commands.add_parser(name, help=what, description=what)
         build(command)
         command.set_defaults(run=run)
     return parser
+
+
+class _Version(argparse.Action):
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        from ..model.partition.native import describe
+
+        print(f"solidtree {_version()} ({describe()})")
+        parser.exit()
 
 
 def _version() -> str:
@@ -123,8 +133,11 @@ class Bar:
 
     def __call__(self, label: str) -> None:
         self._done += 1
+        self.show(label, min(self._done / max(self._total, 1), 1.0))
+
+    def show(self, label: str, share: float) -> None:
+        """Which share is done, 0 to 1, and of what."""
         if self._shown:
-            share = min(self._done / max(self._total, 1), 1.0)
             print(f"\r[{'#' * int(30 * share):30}] {label[:40]:40}", end="", file=sys.stderr, flush=True)
 
     def end(self) -> None:
@@ -283,6 +296,18 @@ def _render(options: argparse.Namespace) -> int:
     return render(options)
 
 
+def _ray_options(command: argparse.ArgumentParser) -> None:
+    from .shell.ray import add_options
+
+    add_options(command)
+
+
+def _ray(options: argparse.Namespace) -> int:
+    from .shell.ray import ray
+
+    return ray(options)
+
+
 def _section_options(command: argparse.ArgumentParser) -> None:
     from .shell.section import add_options
 
@@ -295,13 +320,40 @@ def _section(options: argparse.Namespace) -> int:
     return section(options)
 
 
+def _draw_options(command: argparse.ArgumentParser) -> None:
+    from .shell.draw import add_options
+
+    add_options(command)
+
+
+def _draw(options: argparse.Namespace) -> int:
+    from .shell.draw import draw
+
+    return draw(options)
+
+
+def _bsp_options(command: argparse.ArgumentParser) -> None:
+    from .shell.bsp import add_options
+
+    add_options(command)
+
+
+def _bsp(options: argparse.Namespace) -> int:
+    from .shell.bsp import bsp
+
+    return bsp(options)
+
+
 _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[argparse.Namespace], int], str]] = {
     "info": (_info_options, _info, "measurements as one JSON object on standard output"),
     "export": (_export_options, _export, "write a mesh file: stl, 3mf, obj, ply, off or glb by OUT's ending"),
     "convert": (_convert_options, _export, "turn one file into another format"),
     "render": (_render_options, _render, "a picture as PNG"),
+    "draw": (_draw_options, _draw, "a drawing with hidden faces and lines removed, as SVG, PDF or DXF"),
     "sets": (_sets_options, _sets, "the saved sets of parameter values, as JSON of OpenSCAD's customizer, or as CSV"),
+    "ray": (_ray_options, _ray, "the first face on a ray, or whether two points see each other, as JSON"),
     "section": (_section_options, _section, "the outlines in which a plane cuts the solids, as SVG or DXF"),
+    "bsp": (_bsp_options, _bsp, "the BSP tree that hidden surfaces are sorted by: its figures as JSON"),
     "diagram": (_diagram_options, _diagram, "the CSG diagram of the tree as SVG"),
     "run": (_run_options, _run, "run a script with the names of solidtree.model.script at hand"),
 }

@@ -133,6 +133,21 @@ def ask_outline_path(parent: QWidget, start: Path, then: Callable[[str], None]) 
     dialog.open()
 
 
+def ask_drawing_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
+    """Which file to write a drawing to."""
+    filters = {
+        "SVG drawing, linked to the tree (*.svg)": "svg",
+        "PDF page (*.pdf)": "pdf",
+        "DXF drawing at true size, a layer for each node (*.dxf)": "dxf",
+    }
+    dialog = _file_dialog(parent, "Save drawing", str(start.parent), list(filters), then)
+    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+    dialog.setDefaultSuffix("svg")
+    dialog.filterSelected.connect(lambda chosen: dialog.setDefaultSuffix(filters[chosen]))
+    dialog.selectFile(start.name)
+    dialog.open()
+
+
 class ExportDialog(QDialog):
     """File, format, tolerance and which solid. `then` takes (path, tolerance, solid or None for all)."""
 
@@ -255,9 +270,11 @@ def report_fault(parent: QWidget | None, report: str) -> None:
 
 
 def about(parent: QWidget) -> None:
-    """The version, and whose work stands in the program."""
+    """The version, which BSP builder is in use, and whose work stands in the program."""
     from importlib.metadata import version
 
-    text = f"Solidtree {version('solidtree')}"
+    from ..model.partition.native import describe
+
+    text = f"Solidtree {version('solidtree')} ({describe()})"
     detail = "A modeller in which a solid is a tree.\n\nSolids: Manifold. Pictures: VTK. Window: Qt. Icons: Tabler."
     _box(parent, QMessageBox.Icon.NoIcon, text, detail).open()

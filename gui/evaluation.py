@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Qt, QTimer, Signal
 
-from ..model.document.document import Document, Section
+from ..model.document.document import Document
 from ..model.document.tree import walk
 from ..model.editing.session import Session, State
+from .jobs import Jobs
 
 if TYPE_CHECKING:
     from ..model.worker.lane import Lane
@@ -38,21 +38,18 @@ def same_shape(a: Document, b: Document) -> bool:
 
 
 class Evaluation(QObject):
-    """One lane evaluates; a second one, started when first needed, exports, so that a long job never delays a drag."""
+    """One lane evaluates; `jobs` has a second one, so that a long job never delays a drag."""
 
     shown = Signal(object, float)
     """A new answer (a Shown), and how many seconds it took."""
     busy = Signal(bool)
     progress = Signal(int, int, str)
-    exported = Signal(str, str)
-    """Path, and "" or why nothing was written."""
     examined = Signal(object)
     """The selected nodes by themselves: a dict of Parts by id (see `parts`)."""
     notice = Signal(str)
     outdated = Signal()
     """What is shown is no longer what the document says, and nobody is at work on it."""
     _told = Signal(object)
-    _told_of_job = Signal(object)
 
     def __init__(
         self,
@@ -64,7 +61,11 @@ class Evaluation(QObject):
         self._session = session
         self._make_lane = make_lane
         self._told.connect(self._receive, Qt.ConnectionType.QueuedConnection)
-        self._told_of_job.connect(self._receive_job, Qt.ConnectionType.QueuedConnection)
+        self.jobs = jobs = Jobs(make_lane, self)
+        jobs.began.connect(self._be_patient)
+        jobs.rested.connect(self._rest)
+        jobs.notice.connect(self.notice)
+        jobs.progress.connect(lambda *told: self.progress.emit(*told) if self._request is None else None)
         self._closed = False
         self._asked: tuple[Document, float] | None = None
         self._request: int | None = None
@@ -72,7 +73,6 @@ class Evaluation(QObject):
         """The first request of the drag under way: answers from there on are shown, though newer ones are asked for."""
         self._quick = False  # whether the worker has been so with this document lately
         self._is_busy = False
-        self._exports: set[int] = set()
         self.latest: Shown | None = None
         self.parts: dict[str, Part] = {}
         """Of the selected nodes, by id; those of the last answer until the next one comes."""
@@ -93,12 +93,11 @@ class Evaluation(QObject):
         self._idle.setInterval(IDLE)
         self._idle.timeout.connect(self._prepare)
         self.lane: Lane | None = None
-        self.jobs: Lane | None = None
 
     def warm(self) -> None:
         """Start the worker before there is something to do; after the first picture, which it would delay."""
         if self.lane is None and not self._closed:
-            # The lanes call from threads of their own: only a queued signal crosses over.
+            # The lane calls from a thread of its own: only a queued signal crosses over.
             self.lane = self._make_lane(self._told.emit)
             self.lane.start()
             if self._session.document.roots:
@@ -114,10 +113,6 @@ class Evaluation(QObject):
     def examining(self) -> bool:
         """Whether `parts` may tell of an earlier document or selection."""
         return self.waiting or self._look.isActive() or self._examination is not None
-
-    @property
-    def exporting(self) -> bool:
-        return bool(self._exports)
 
     def session_changed(self, before: State, after: State) -> None:
         """Ask once for each pass of the event loop, however many changes it held."""
@@ -143,28 +138,8 @@ class Evaluation(QObject):
             self.lane.cancel()
             self.outdated.emit()
             self.notice.emit("Cancelled: the picture shows the last result")
-        if self._exports and self.jobs is not None:
-            self._exports.clear()
-            self.jobs.cancel()
-            self.notice.emit("The export was cancelled; no file was written")
+        self.jobs.cancel()
         self._rest()
-
-    def export(
-        self,
-        document: Document,
-        path: str | Path,
-        tolerance: float | None = None,
-        solid: str | None = None,
-        section: Section | None = None,
-    ) -> None:
-        """Write a mesh file, or of a section its outlines; `exported` tells when that is done."""
-        from ..model.solid.tessellation import DEFAULT_TOLERANCE
-
-        if self.jobs is None:
-            self.jobs = self._make_lane(self._told_of_job.emit)
-            self.jobs.start()
-        self._exports.add(self.jobs.export(document, path, tolerance or DEFAULT_TOLERANCE, solid, section))
-        self._patience.start()
 
     def close(self) -> None:
         if not self._closed:
@@ -173,9 +148,9 @@ class Evaluation(QObject):
             self._patience.stop()
             self._idle.stop()
             self._look.stop()
-            for lane in (self.lane, self.jobs):
-                if lane is not None:
-                    lane.close()
+            if self.lane is not None:
+                self.lane.close()
+            self.jobs.close()
 
     def _examine(self) -> None:
         """Ask for the selected nodes by themselves, unless that has been done; on a drag's way only for new shapes."""
@@ -222,6 +197,10 @@ class Evaluation(QObject):
             self._drag = None
         elif self._drag is None:
             self._drag = self._request
+        self._be_patient()
+
+    def _be_patient(self) -> None:
+        """Say that the window is busy, unless it is over soon."""
         if not self._is_busy and not self._patience.isActive():
             self._patience.start()
 
@@ -264,29 +243,20 @@ class Evaluation(QObject):
                 self._request = None
                 self._rest()
 
-    def _receive_job(self, message: LaneMessage) -> None:
-        from ..model.worker.messages import Died, Exported, Progress
-
-        if self._closed:
-            return
-        match message:
-            case Exported(request, path, fault) if request in self._exports:
-                self._exports.discard(request)
-                self._rest()
-                self.exported.emit(path, fault or "")
-            case Progress(request, done, total, label) if request in self._exports and self._request is None:
-                self.progress.emit(done, total, f"Exporting {label}")
-            case Died(request, reason, given_up) if given_up and request in self._exports:
-                self._exports.discard(request)
-                self._rest()
-                self.exported.emit("", reason)
-
     def _rest(self) -> None:
-        if self._request is None and not self._exports:
+        if self._request is None and not self.jobs.at_work:
             self._patience.stop()
             self._set_busy(False)
+        elif self._is_busy:
+            self._say_job()
 
     def _set_busy(self, busy: bool) -> None:
         if busy != self._is_busy:
             self._is_busy = busy
             self.busy.emit(busy)
+            self._say_job()
+
+    def _say_job(self) -> None:
+        """Name the job where it is what is waited for."""
+        if self._is_busy and self._request is None and self.jobs.label:
+            self.progress.emit(0, 0, self.jobs.label)

@@ -19,6 +19,7 @@ from .settings import Settings
 if TYPE_CHECKING:
     from PySide6.QtWidgets import QWidget
 
+    from ..model.drafting.plan import Plan
     from .evaluation import Evaluation
 
 PROJECT = ".solidtree"
@@ -48,7 +49,7 @@ class Files(QObject):
         self.path: Path | None = None
         self._turn = 0  # how many documents have been opened
         self.background = Background(self)
-        evaluation.exported.connect(self._exported)
+        evaluation.jobs.exported.connect(self._exported)
 
     @property
     def name(self) -> str:
@@ -185,7 +186,14 @@ class Files(QObject):
         """Write a mesh file, or of a section its outlines."""
         self._settings.folder = Path(path).parent
         self._session.cancel()
-        self._evaluation.export(self._session.document, path, tolerance, solid, section)
+        self._evaluation.jobs.export(self._session.document, path, tolerance, solid, section)
+        self.notice.emit(f"Exporting {Path(path).name}")
+
+    def export_drawing(self, path: str | Path, plan: Plan, tolerance: float, solid: str | None = None) -> None:
+        """Write a drawing as SVG, PDF or DXF."""
+        self._settings.folder = Path(path).parent
+        self._session.cancel()
+        self._evaluation.jobs.export_drawing(self._session.document, plan, path, tolerance, solid)
         self.notice.emit(f"Exporting {Path(path).name}")
 
     def _exported(self, path: str, fault: str) -> None:

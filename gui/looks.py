@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from .window import MainWindow
 
+TRANSLUCENT = 0.5  # opacity of all faces
+
 
 class Looks:
     """The switches of one window's picture, and their state."""
@@ -17,6 +19,7 @@ class Looks:
         self.parallel, self.grid = flag("parallel", False), flag("grid", True)
         self.ghosts, self.colour_by_node = flag("ghosts", True), flag("colour_by_node", False)
         self.style = "edges"
+        self.translucent = False
 
     def apply(self) -> None:
         """Bring the picture to this state, when its parts are there."""
@@ -28,6 +31,11 @@ class Looks:
     def set_style(self, name: str) -> None:
         self.style = name
         self._window.viewport.change(lambda viewer: viewer.set_style(name))
+        self._window.actions_.refresh()
+
+    def set_translucent(self, translucent: bool) -> None:
+        self.translucent = translucent
+        self._window.viewport.change(lambda viewer: viewer.set_opacity(TRANSLUCENT if translucent else 1.0))
         self._window.actions_.refresh()
 
     def set_parallel(self, parallel: bool) -> None:

@@ -86,6 +86,9 @@ class StatusBar(QStatusBar):
         self.time = QLabel(self)
         self.time.setObjectName("time")
         self.time.setToolTip("How long the last evaluation took")
+        self.hidden_surface = QLabel(self)
+        self.hidden_surface.setObjectName("hidden_surface")
+        self.hidden_surface.hide()
         self.busy = QWidget(self)
         self.busy.setObjectName("busy")
         self._label = QLabel("Evaluating", self.busy)
@@ -106,7 +109,7 @@ class StatusBar(QStatusBar):
         for widget in (self._label, self.bar, self.cancel):
             layout.addWidget(widget)
         self.busy.hide()
-        for widget in (self.busy, self.measures, self.time):
+        for widget in (self.busy, self.hidden_surface, self.measures, self.time):
             self.addPermanentWidget(widget)
 
     def say(self, text: str) -> None:
@@ -135,6 +138,12 @@ class StatusBar(QStatusBar):
         self.bar.setValue(done)
         if label:
             self._label.setText(self._label.fontMetrics().elidedText(label, Qt.TextElideMode.ElideMiddle, 220))
+
+    def set_hidden_surface(self, words: str, reason: str) -> None:
+        """What the picture is drawn with, and why; "" where that is a matter of course."""
+        self.hidden_surface.setText(words)
+        self.hidden_surface.setToolTip(reason)
+        self.hidden_surface.setVisible(bool(words))
 
     def set_outdated(self) -> None:
         self.time.setText("out of date")

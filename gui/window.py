@@ -15,15 +15,20 @@ from ..model.editing.session import Session, State
 from ..model.editing.tree_commands import TREE_COMMANDS
 from .commands.actions import Actions
 from .commands.arrange import ARRANGE_COMMANDS
+from .commands.drawing import DRAWING_COMMANDS
 from .commands.handles import HANDLE_COMMANDS
+from .commands.hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .commands.measure import MEASURE_COMMANDS
 from .commands.menus import fill_menus
 from .commands.parameters import PARAMETER_COMMANDS
+from .commands.partition import PARTITION_COMMANDS
 from .commands.sections import SECTION_COMMANDS
+from .commands.sight import SIGHT_COMMANDS
 from .commands.views import FILE_COMMANDS, TOOL_BAR, VIEW_COMMANDS
 from .docks import arrange, give_sizes, switch_layout
 from .evaluation import Evaluation
 from .files import Files
+from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
 from .palette.palette import Palette
 from .panels.figures import FigureUse
@@ -34,6 +39,7 @@ from .panels.properties import Properties
 from .panels.script_log import ScriptLog
 from .panels.sections import Sections
 from .parameters.parameters import Parameters
+from .partition.panel import BspPanel
 from .settings import LAYOUT_VERSION, Settings
 from .status import StatusBar, shown_solids
 from .theme import Theme
@@ -41,6 +47,7 @@ from .tools.handles import Handles
 from .tools.measure import MeasureTool
 from .tools.place_on_face import PlaceOnFace
 from .tools.section_tool import SectionTool
+from .tools.sight import SightTool
 from .tools.tool_menu import SpaceBar
 from .tree.diagram import Diagram
 from .tree.edit_commands import EDIT_COMMANDS
@@ -80,14 +87,18 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(self.viewport)
         self.operand_ghosts = OperandGhosts(self.viewport, self.session, self.evaluation, self.looks.ghosts)
         self.viewport.add_tool(self.operand_ghosts)
+        self.hidden_surfaces = HiddenSurfaces(self.session, self.viewport, self.evaluation, self.settings, self)
         self.files = Files(self, self.session, self.evaluation, self.settings, self._picture)
         self.actions_ = Actions(self, self.settings)
         self.actions_.add(FILE_COMMANDS, self)
+        self.actions_.add(DRAWING_COMMANDS, self)
         self.actions_.add(PARAMETER_COMMANDS, self)
         self.actions_.add(DOCUMENT_COMMANDS, self.session)
         self.actions_.add(TREE_COMMANDS, self.session)
         self.actions_.add(EDIT_COMMANDS, self)
         self.actions_.add(VIEW_COMMANDS, self)
+        self.actions_.add(HIDDEN_SURFACE_COMMANDS, self)
+        self.actions_.add(PARTITION_COMMANDS, self)
         self.section_tool = SectionTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.section_tool)
         self.actions_.add(SECTION_COMMANDS, self)
@@ -99,6 +110,9 @@ class MainWindow(QMainWindow):
         self.measure = MeasureTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.measure)
         self.actions_.add(MEASURE_COMMANDS, self)
+        self.sight = SightTool(self.session, self.viewport, self.hidden_surfaces, self)
+        self.viewport.add_tool(self.sight)
+        self.actions_.add(SIGHT_COMMANDS, self)
         self.actions_.add(ARRANGE_COMMANDS, self)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
@@ -152,10 +166,11 @@ class MainWindow(QMainWindow):
         self.measurements = Measurements(self.figure_use, self)
         self.sections = Sections(self.session, self.section_tool, self.actions_, self.section_tool.figures, self)
         self.script = ScriptLog(self.session, self)
+        self.bsp = BspPanel(self)
         self.docks = arrange(
             self,
             left={"Model": self.model_panel, "Diagram": self.diagram},
-            right={"Properties": self.properties, "Parameters": self.parameters},
+            right={"Properties": self.properties, "Parameters": self.parameters, "BSP": self.bsp},
             bottom={
                 "Problems": self.problems,
                 "Sections": self.sections,
@@ -174,6 +189,7 @@ class MainWindow(QMainWindow):
             self.diagram,
             self.viewport,
             self.evaluation,
+            self.hidden_surfaces,
             self.properties,
             self.parameters,
             self.sections,
@@ -293,6 +309,7 @@ class MainWindow(QMainWindow):
         self.settings.keep_layout(self.saveGeometry(), self.saveState(LAYOUT_VERSION))
         self._unlisten()
         self.files.background.close()
+        self.hidden_surfaces.close()
         self.evaluation.close()
         self.viewport.close_viewer()
         super().closeEvent(event)

@@ -27,6 +27,7 @@ def connect(window: MainWindow) -> None:
     )
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
+    window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
     window.theme.changed.connect(lambda name: window.viewport.change(lambda viewer: viewer.set_theme(name)))
     window.theme.changed.connect(window.retint)
     window.welcome.open_asked.connect(window.files.open)
@@ -45,6 +46,7 @@ def _words(window: MainWindow) -> None:
         window.actions_,
         window.handles,
         window.place_on_face,
+        window.bsp,
     ):
         part.refused.connect(status.say)
     for said in (
@@ -56,6 +58,8 @@ def _words(window: MainWindow) -> None:
     ):
         said.connect(status.say)
     window.place_on_face.said.connect(status.set_hint)
+    window.sight.said.connect(status.set_hint)
+    window.bsp.probe.said.connect(status.set_hint)
     window.section_tool.said.connect(status.set_hover)
     window.viewport.hovered.connect(status.set_hover)
     window.files.background.busy.connect(lambda words: status.say(words + " …" if words else ""))
@@ -71,6 +75,9 @@ def _evaluation(window: MainWindow) -> None:
     evaluation.outdated.connect(status.set_outdated)
     evaluation.progress.connect(status.set_progress)
     status.cancel_asked.connect(evaluation.cancel)
+    hidden = window.hidden_surfaces
+    hidden.changed.connect(lambda: status.set_hidden_surface(*hidden.words))
+    hidden.mode_changed.connect(window.actions_.refresh)
     status.problems_asked.connect(window.show_problems)
 
 
@@ -85,6 +92,10 @@ def _measuring(window: MainWindow) -> None:
     tool.began.connect(lambda: window.handles.set_hidden(True))
     tool.ended.connect(lambda: window.handles.set_hidden(False))
     tool.ended.connect(window.actions_.refresh)
+    window.sight.began.connect(lambda: window.handles.set_hidden(True))
+    window.sight.ended.connect(lambda: window.handles.set_hidden(False))
+    window.sight.ended.connect(window.actions_.refresh)
+    window.files.opened.connect(window.sight.end)
     panel.chosen.connect(tool.choose)
     panel.removed.connect(tool.remove)
     panel.cleared.connect(tool.clear)

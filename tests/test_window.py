@@ -296,7 +296,7 @@ def test_export_by_the_dialog(driver, tmp_path):
     dialog.path.setText(str(tmp_path / "box.stl"))
     dialog.path.textEdited.emit(dialog.path.text())
     assert dialog.format.currentData() == "stl"
-    with driver.qtbot.waitSignal(driver.window.evaluation.exported, timeout=20000) as told:
+    with driver.qtbot.waitSignal(driver.window.evaluation.jobs.exported, timeout=20000) as told:
         dialog.accept()
     assert told.args[1] == "" and (tmp_path / "box.stl").stat().st_size == 84 + 12 * 50
 

@@ -144,7 +144,7 @@ def test_sections_of_a_document_open_its_picture_and_a_key_shows_it_whole(make_w
 def test_outlines_are_written_by_the_worker(make_window, tmp_path):
     driver = make_window(add_section(document_of(PART), point=(0, 0, 10)))
     file = tmp_path / "cut.dxf"
-    with driver.qtbot.waitSignal(driver.window.evaluation.exported, timeout=30000) as told:
+    with driver.qtbot.waitSignal(driver.window.evaluation.jobs.exported, timeout=30000) as told:
         driver.window.files.export(file, section=driver.document.sections[0])
     assert told.args[1] == "" and len(list(ezdxf.readfile(file).modelspace())) == 2
 

@@ -86,6 +86,7 @@ def _centre(window: MainWindow) -> None:
 
 def _place(window: MainWindow) -> None:
     window.measure.end()
+    window.sight.end()
     window.place_on_face.start()
 
 

@@ -25,6 +25,7 @@ def _selected(window: MainWindow) -> str | None:
 def _choose(mode: str) -> Callable[[MainWindow], None]:
     def run(window: MainWindow) -> None:
         window.measure.end()  # it would keep the mouse from the handles
+        window.sight.end()
         window.handles.choose(mode)
 
     return run

@@ -25,6 +25,7 @@ def _toggle(window: MainWindow) -> None:
         window.measure.end()
         return
     window.place_on_face.end()
+    window.sight.end()
     window.docks["Measure"].show()
     window.docks["Measure"].raise_()
     window.measure.start()

@@ -17,16 +17,17 @@ if TYPE_CHECKING:
 
 PROJECT = ".solidtree"
 ORDER = {
-    "File": "new open recent examples - save save_as - import export export_diagram - quit",
+    "File": "new open recent examples - save save_as - import export export_drawing export_diagram - quit",
     "Edit": "undo redo - cut copy paste copy_script duplicate delete - rename dissolve link unlink Edit/Order - "
     "toggle_visible show_hidden - select_all invert Edit/Select find - Edit/Parameters - evaluate cancel",
     "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace - add_extrude add_revolve",
     "Combine": "union difference intersection hull minkowski - group Combine/Change_to - "
     "linear_array polar_array mirror",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements Tools/Sections - tool_menu",
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
-    "view_left - perspective grid ghosts colour_by_node sections - View/Style View/Theme - diagram panels",
+    "view_left - perspective grid ghosts colour_by_node translucent sections - hidden_surface View/Hidden_surfaces "
+    "View/Style View/Theme - diagram bsp_panel panels",
     "Help": "palette cheat_sheet shortcuts - about",
 }
 """What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.

@@ -78,6 +78,7 @@ def _at_face(window: MainWindow) -> None:
         add(window, point, tuple(round(-value, 9) + 0.0 for value in pick.normal))
 
     window.measure.end()
+    window.sight.end()
     window.place_on_face.end()
     window.section_tool.ask_face(take)
 

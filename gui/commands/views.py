@@ -41,7 +41,7 @@ def _selected(window: MainWindow) -> str | None:
 
 
 def _busy(window: MainWindow) -> str | None:
-    waits = window.evaluation.waiting or window.evaluation.exporting
+    waits = window.evaluation.waiting or window.evaluation.jobs.at_work
     return None if waits else "nothing is being computed"
 
 
@@ -148,5 +148,5 @@ TOOL_BAR = (
     "union", "difference", "intersection", "",
     "fit", "view_iso", "",
     "style_shaded", "style_edges", "style_wireframe", "style_hidden-line", "",
-    "perspective", "grid", "", "measure", "", "export",
+    "perspective", "grid", "hidden_surface", "", "measure", "", "export",
 )  # fmt: skip

@@ -30,7 +30,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("out", metavar="OUT.png")
     command.add_argument("--size", type=_size, default=(1200, 800), metavar="WxH", help="in pixels, default 1200x800")
     add_view_options(command)
-    command.add_argument("--hidden-surface", choices=("zbuffer",), default="zbuffer")
+    command.add_argument("--hidden-surface", choices=("zbuffer", "bsp"), default="zbuffer", help="default zbuffer")
     command.add_argument("--style", choices=("shaded", "edges", "wireframe", "hidden-line"), default="shaded")
     command.add_argument("--shading", choices=("flat", "gouraud", "phong"), default="phong")
     command.add_argument("--opacity", type=_share, default=1.0, metavar="A", help="from 0 to 1")
@@ -61,8 +61,8 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
 
 
-def add_view_options(command: argparse.ArgumentParser) -> None:
-    """From where, and how projected."""
+def add_view_options(command: argparse.ArgumentParser, angle: str = "full vertical angle, default 30") -> None:
+    """From where, and how projected; `angle` tells of the perspective's."""
     command.add_argument("--view", choices=VIEWS, default=None, help="default iso")
     for name, what in (
         ("eye", "where the eye is"),
@@ -72,7 +72,7 @@ def add_view_options(command: argparse.ArgumentParser) -> None:
         command.add_argument(f"--{name}", type=_point, metavar="x,y,z", help=what)
     projection = command.add_mutually_exclusive_group()
     projection.add_argument("--parallel", action="store_true", help="parallel projection")
-    projection.add_argument("--perspective", type=_angle, metavar="ANGLE", help="full vertical angle, default 30")
+    projection.add_argument("--perspective", type=_angle, metavar="ANGLE", help=angle)
 
 
 def _size(text: str) -> tuple[int, int]:

@@ -31,10 +31,10 @@ def add_options(command: argparse.ArgumentParser) -> None:
         metavar="AXIS=MM",
         help="x=MM as seen from the right, y=MM from the front, z=MM from above",
     )
-    where.add_argument("--point", type=_vector, metavar="x,y,z", help="a point of the plane; needs --normal")
+    where.add_argument("--point", type=vector, metavar="x,y,z", help="a point of the plane; needs --normal")
     where.add_argument("--name", metavar="SECTION", help="a section of the document, seen from its open side")
     command.add_argument(
-        "--normal", type=_vector, metavar="x,y,z", help="towards the viewer; --normal=-1,0,0 where a minus comes first"
+        "--normal", type=vector, metavar="x,y,z", help="towards the viewer; --normal=-1,0,0 where a minus comes first"
     )
     command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")
     command.add_argument("--fill", choices=("none", "colour", "hatch"), default="none", help="of an SVG's cut areas")
@@ -100,7 +100,8 @@ def _plane(text: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
     return tuple(place if name == axis else 0.0 for name in TOWARDS), TOWARDS[axis]
 
 
-def _vector(text: str) -> tuple[float, ...]:
+def vector(text: str) -> tuple[float, ...]:
+    """Three numbers, for options."""
     try:
         x, y, z = (float(part) for part in text.split(","))
     except ValueError:

@@ -27,11 +27,13 @@ if TYPE_CHECKING:
 class Viewport(Canvas):
     """Shows meshes by root id. VTK is loaded by `attach`, when the window is already on the screen.
 
-    `ready` comes once, after `attach`; `hovered` carries words on what lies under the pointer, "" for nothing;
+    `ready` comes once, after `attach`; `displayed` carries the meshes in the picture by id, whenever they may be others
+    and before they are drawn; `hovered` carries words on what lies under the pointer, "" for nothing;
     `menu_asked` is Pointing's.
     """
 
     ready = Signal()
+    displayed = Signal(dict)
     hovered = Signal(str)
     menu_asked = Signal(list, QPoint)
     view_changed = Signal()
@@ -157,6 +159,7 @@ class Viewport(Canvas):
             shown[root.id] = (mesh, old[3])
         self._kept = kept
         self.viewer.show(shown)
+        self.displayed.emit({root_id: mesh for root_id, (mesh, _) in shown.items()})
         self._highlight()
         if self._fit_pending and shown:
             self._fit_pending = False

@@ -1,0 +1,1 @@
+"""The preview of drawings, and the choices for them."""

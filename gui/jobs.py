@@ -1,0 +1,178 @@
+"""The window's side of the second worker: what takes its time and must not delay a drag, such as writing a file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Qt, Signal
+
+from ..model.document.document import Document, Section
+
+if TYPE_CHECKING:
+    from ..model.drafting.plan import Plan
+    from ..model.solid.display import DisplayMesh
+    from ..model.worker.lane import Lane
+    from ..model.worker.messages import LaneMessage
+
+SORTING = "Sorting faces"
+
+
+class Jobs(QObject):
+    """A lane that is started when it is first needed.
+
+    `began` when somebody waits for something new, `rested` whenever a job has come to its end.
+    """
+
+    began = Signal()
+    rested = Signal()
+    progress = Signal(int, int, str)
+    notice = Signal(str)
+    exported = Signal(str, str)
+    """Path, and "" or why nothing was written."""
+    partitioned = Signal(object, float)
+    """The Tree that `partition` was asked for last, and how many seconds it took; None where it was given up."""
+    drawn = Signal(object, tuple, str)
+    """The Page that `draw` was asked for last, and the messages about its nodes; or None, and why there is none."""
+    drawing_progress = Signal(int, int, str)
+    _told = Signal(object)
+
+    def __init__(self, make_lane: Callable[[Callable[[LaneMessage], None]], Lane], parent: QObject) -> None:
+        super().__init__(parent)
+        self._make_lane = make_lane
+        # The lane calls from a thread of its own: only a queued signal crosses over.
+        self._told.connect(self._receive, Qt.ConnectionType.QueuedConnection)
+        self._closed = False
+        self._exports: set[int] = set()
+        self._partition: int | None = None
+        self._drawing: int | None = None
+        self.lane: Lane | None = None
+
+    @property
+    def exporting(self) -> bool:
+        return bool(self._exports)
+
+    @property
+    def partitioning(self) -> bool:
+        return self._partition is not None
+
+    @property
+    def at_work(self) -> bool:
+        return self.exporting or self.partitioning
+
+    @property
+    def label(self) -> str:
+        """What is going on, where the lane has not told yet."""
+        return SORTING if self.partitioning and not self.exporting else ""
+
+    def export(
+        self,
+        document: Document,
+        path: str | Path,
+        tolerance: float | None = None,
+        solid: str | None = None,
+        section: Section | None = None,
+    ) -> None:
+        """Write a mesh file, or of a section its outlines; `exported` tells when that is done."""
+        from ..model.solid.tessellation import DEFAULT_TOLERANCE
+
+        self._exports.add(self._started().export(document, path, tolerance or DEFAULT_TOLERANCE, solid, section))
+        self.began.emit()
+
+    def partition(self, meshes: tuple[DisplayMesh, ...], ahead: bool = False) -> None:
+        """Sort the triangles of these meshes into a BSP tree, instead of those asked for before; none: no longer.
+
+        `ahead`: nobody waits for it.
+        """
+        if meshes:
+            self._partition = self._started().partition(meshes)
+            if not ahead:
+                self.began.emit()
+        elif self._partition is not None and self.lane is not None:
+            self._partition = None
+            self.lane.partition(())
+            self.rested.emit()
+
+    def draw(self, document: Document, plan: Plan, tolerance: float, solid: str | None = None) -> None:
+        """Draw a page, instead of the one asked for before; `drawn` brings it."""
+        self._drawing = self._started().draw(document, plan, tolerance, solid)
+
+    def stop_drawing(self) -> None:
+        if self._drawing is not None and self.lane is not None:
+            self._drawing = None
+            self.lane.stop_drawing()
+
+    def export_drawing(
+        self, document: Document, plan: Plan, path: str | Path, tolerance: float, solid: str | None = None
+    ) -> None:
+        """Write a page as SVG, PDF or DXF; `exported` tells when that is done."""
+        self._exports.add(self._started().draw(document, plan, tolerance, solid, path))
+        self.began.emit()
+
+    def cancel(self) -> None:
+        """Give up all of it."""
+        if self.lane is not None and (self.at_work or self._drawing is not None):
+            self.lane.cancel()
+        if self._drawing is not None:
+            self._end_drawing("it was cancelled")
+        if self._exports:
+            self._exports.clear()
+            self.notice.emit("The export was cancelled; no file was written")
+        if self.partitioning:
+            self._partition = None
+            self.notice.emit("Sorting was cancelled: the picture is drawn with the z-buffer")
+            self.partitioned.emit(None, 0.0)
+
+    def close(self) -> None:
+        self._closed = True
+        if self.lane is not None:
+            self.lane.close()
+
+    def _started(self) -> Lane:
+        if self.lane is None:
+            self.lane = self._make_lane(self._told.emit)
+            self.lane.start()
+        return self.lane
+
+    def _receive(self, message: LaneMessage) -> None:
+        from ..model.worker.messages import Died, Drawn, Exported, Partitioned, Progress
+
+        if self._closed:
+            return
+        match message:
+            case Exported(request, path, fault) if request in self._exports:
+                self._exports.discard(request)
+                self.rested.emit()
+                self.exported.emit(path, fault or "")
+            case Partitioned(request, tree, seconds, fault) if request == self._partition:
+                self._sorted(tree, seconds, fault)
+            case Drawn(request, page, messages, fault) if request == self._drawing:
+                self._drawing = None
+                self.drawn.emit(page, messages, fault or "")
+            case Progress(request, done, total, label):
+                if request == self._drawing:
+                    self.drawing_progress.emit(done, total, label)
+                elif request in self._exports:
+                    self.progress.emit(done, total, f"Exporting {label}")
+                elif request == self._partition and not self._exports:
+                    self.progress.emit(done, total, label)
+            case Died(request, reason, given_up) if given_up and request in self._exports:
+                self._exports.discard(request)
+                self.rested.emit()
+                self.exported.emit("", reason)
+            case Died(request, reason, given_up) if given_up and request is not None and request == self._partition:
+                self._sorted(None, 0.0, f"{reason}, twice")
+            case Died(request, reason, given_up) if given_up and request is not None and request == self._drawing:
+                self._end_drawing(f"{reason}, twice")
+
+    def _end_drawing(self, why: str) -> None:
+        self._drawing = None
+        self.drawn.emit(None, (), why)
+
+    def _sorted(self, tree: object, seconds: float, fault: str | None) -> None:
+        self._partition = None
+        self.rested.emit()
+        if fault:
+            self.notice.emit(f"The faces were not sorted: {fault}")
+        self.partitioned.emit(tree, seconds)

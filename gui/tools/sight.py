@@ -1,0 +1,296 @@
+"""The tools for lines of sight: two clicks ask whether points see each other, one what is before and behind a face."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Literal
+
+from PySide6.QtCore import QObject, QPointF, Qt, Signal
+from PySide6.QtGui import QKeyEvent
+
+from ...model.document.tree import walk
+from ...model.editing.session import Session
+from ..hidden_surfaces import HiddenSurfaces
+from ..view.viewport import Viewport
+from .click_tool import ClickTool
+
+if TYPE_CHECKING:
+    from ...model.measuring.sight import SolidRays
+    from ...model.partition.rays import Hit
+    from ...model.partition.sight import Sight
+    from ...render.handles.sight_marks import SightMarks
+    from ...render.handles.snap import Snap, Snapper
+    from ...render.handles.snap_mark import SnapMark
+    from ...render.viewer import Viewer
+
+Mode = Literal["points", "ray"]
+Vector = tuple[float, float, float]
+
+WORDS = {
+    "vertex": "Corner", "midpoint": "Middle", "centre": "Centre", "edge": "Edge", "face": "Face", "grid": "Ground",
+}  # fmt: skip
+FIRST = {
+    "points": "Click a point, then another one, to learn whether they see each other; Escape ends this",
+    "ray": "Click a face to learn how far it is to what stands before it, and how thick the wall is; Escape ends this",
+}
+SECOND = "Click the point to look at; Escape takes the first one back"
+ANEW = {"points": "a click begins anew", "ray": "click another face"}
+SORTING = "The faces are being sorted …"
+UNSORTED = "The faces of this model could not be sorted; change it to try again"
+LIVE = 0.03  # seconds that an answer may take for the line to be judged while the pointer moves
+FAR = 0.15  # of the scene's size: how far a ray is drawn that meets nothing
+
+
+class SightTool(ClickTool):
+    """Does nothing until `start`. `said` tells what to do and what was found, "" at the end."""
+
+    said = Signal(str)
+    began = Signal()
+    ended = Signal()
+
+    def __init__(
+        self, session: Session, viewport: Viewport, hidden_surfaces: HiddenSurfaces, parent: QObject | None = None
+    ) -> None:
+        super().__init__(viewport, parent)
+        self._session = session
+        self._hidden_surfaces = hidden_surfaces
+        self._snapper: Snapper | None = None
+        self._snap_mark: SnapMark | None = None
+        self._marks: SightMarks | None = None
+        self._known: SolidRays | None = None
+        self._seconds = 0.0  # that the last answer took
+        self.mode: Mode | None = None
+        self.points: tuple[Vector, ...] = ()
+        """Those clicked; of a face a point on it and its normal."""
+        self.sight: Sight | None = None
+        """The answer about two points; None as long as there is none."""
+        self.about: tuple[Hit | None, Hit | None] | None = None
+        """The answer about a face: what stands before it, and what ends the wall below it."""
+        hidden_surfaces.changed.connect(self._sorted)
+        viewport.displayed.connect(self._displayed)
+
+    @property
+    def active(self) -> bool:
+        return self.mode is not None
+
+    def start(self, mode: Mode) -> None:
+        fresh = not self.active
+        self.mode = mode
+        self._forget()
+        if fresh:
+            self.began.emit()
+            self._viewport.setCursor(Qt.CursorShape.CrossCursor)
+        self._viewport.setFocus()
+        self._rays()  # where the worker has to sort the faces, it begins now
+        self.said.emit(FIRST[mode])
+
+    def end(self) -> None:
+        if self.active:
+            self.mode = None
+            self._forget()
+            self._known = None
+            self.drop_press()
+            if self._snap_mark is not None:
+                self._snap_mark.show(None)
+            self._draw()
+            self._viewport.unsetCursor()
+            self.said.emit("")
+            self.ended.emit()
+
+    # Events.
+
+    def attached(self, viewer: Viewer) -> None:
+        from ...render.handles.sight_marks import SightMarks
+        from ...render.handles.snap import Snapper
+        from ...render.handles.snap_mark import SnapMark
+
+        super().attached(viewer)
+        self._snapper, self._snap_mark, self._marks = Snapper(viewer), SnapMark(), SightMarks()
+        viewer.overlay.add(self._marks)
+        viewer.overlay.add(self._snap_mark)
+
+    def closing(self) -> None:
+        self.end()
+        super().closing()
+        self._snapper = self._snap_mark = self._marks = None
+
+    def takes_clicks(self) -> bool:
+        return self.active
+
+    def key(self, event: QKeyEvent) -> bool:
+        if self.mode is None or event.key() != Qt.Key.Key_Escape:
+            return False
+        if self.points:
+            self._forget()
+            self.said.emit(FIRST[self.mode])
+        else:
+            self.end()
+        return True
+
+    def pointed(self, position: QPointF | None) -> None:
+        snap = None if position is None else self._find(position)
+        if self._snap_mark is not None:
+            self._snap_mark.show(snap)
+        if self.mode == "points" and len(self.points) == 1:
+            self._judge(None if snap is None else snap.point)
+        elif not self.points and self.mode is not None:
+            self.said.emit(FIRST[self.mode] if snap is None else f"{WORDS[snap.kind]}. {FIRST[self.mode]}")
+        self._draw()
+
+    def clicked(self, position: QPointF) -> None:
+        snap = self._find(position)
+        if snap is None:
+            return
+        if self.mode == "ray":
+            assert snap.direction is not None
+            self._forget()
+            self.points = (snap.point, snap.direction)
+        elif len(self.points) == 1:
+            self.points = (*self.points, snap.point)
+        else:
+            self._forget()
+            self.points = (snap.point,)
+        self._judge()
+
+    def _displayed(self) -> None:
+        if self.active:
+            self._judge()
+
+    def _sorted(self) -> None:
+        if self.active and self.points and self.sight is None and self.about is None:
+            self._judge()
+
+    def _find(self, position: QPointF) -> Snap | None:
+        if self._snapper is None:
+            return None
+        if self.mode == "points":
+            return self._snapper.find(position.x(), position.y())
+        pick = self._snapper.pick(position.x(), position.y())
+        if pick is None:
+            return None
+        from ...render.handles.snap import Snap
+
+        return Snap("face", pick.point, pick.normal, pick.path)
+
+    # What is seen.
+
+    def _rays(self) -> SolidRays | None:
+        """Rays through what is shown; None while its faces are being sorted, or something moves."""
+        from ...model.measuring.sight import SolidRays
+
+        if self._viewer is None or self._session.previewing:
+            return None
+        found = self._hidden_surfaces.find()
+        if found is None:
+            return None
+        if self._known is None or self._known.rays.tree is not found.tree:
+            meshes = self._viewer.scene.meshes
+            if any(solid_id not in meshes for solid_id in found.solid_ids):
+                return None
+            self._known = SolidRays(found.tree, [meshes[solid_id] for solid_id in found.solid_ids])
+        return self._known
+
+    def _judge(self, target: Vector | None = None) -> None:
+        """Answer for the points that were clicked, or for the first one and the one under the pointer."""
+        from time import perf_counter
+
+        if self.mode is None or not self.points:
+            return
+        pending = self.mode == "points" and len(self.points) == 1
+        self.sight = self.about = None
+        if pending and target is None:
+            self._show_point()
+            self.said.emit(SECOND)
+            return
+        slow = pending and self._seconds > LIVE
+        start = perf_counter()
+        rays = None if slow else self._rays()
+        if self.mode == "ray":
+            self._show_about(rays)
+        else:
+            self._show_sight(rays, self.points[0], self.points[-1] if target is None else target, pending)
+        if rays is not None:
+            self._seconds = perf_counter() - start
+        self._draw()
+
+    def _show_point(self) -> None:
+        import numpy as np
+
+        if self._marks is not None:
+            self._marks.show((), [np.array(self.points[0])])
+        self._draw()
+
+    def _show_sight(self, rays: SolidRays | None, a: Vector, b: Vector, pending: bool) -> None:
+        import numpy as np
+
+        from ...model.measuring.elements import short
+        from ...render.handles.sight_marks import SightLine
+
+        start, end = np.array(a), np.array(b)
+        if self._marks is None:
+            return
+        if rays is None:
+            self._marks.show([SightLine(start, end, "unknown")], [start, end])
+            self.said.emit(SECOND if pending else self._why_not())
+            return
+        sight = rays.sight(a, b)
+        after = SECOND if pending else ANEW["points"]
+        if not pending:
+            self.sight = sight
+        length, hit = short(sight.length), sight.obstacle
+        if hit is None:
+            self._marks.show([SightLine(start, end, "clear", length)], [start, end])
+            self.said.emit(f"Clear: {length} mm; {after}")
+            return
+        name, middle, reach = self._name(rays, hit), np.array(hit.point), short(hit.distance)
+        lines = [SightLine(middle, end, "blocked", f"“{name}”")]
+        if hit.distance > 0.0:
+            lines.append(SightLine(start, middle, "clear", reach))
+        self._marks.show(lines, [start, middle, end], rays.outline(hit))
+        self.said.emit(f"“{name}” is in the way: {reach} of {length} mm are clear; {after}")
+
+    def _show_about(self, rays: SolidRays | None) -> None:
+        import numpy as np
+
+        from ...model.measuring.elements import short
+        from ...render.handles.sight_marks import SightLine
+
+        if self._marks is None:
+            return
+        point, normal = np.array(self.points[0]), np.array(self.points[1])
+        if rays is None:
+            self._marks.show((), [point])
+            self.said.emit(self._why_not())
+            return
+        self.about = gap, wall = rays.about(point, normal)
+        dots, lines = [point], []
+        if gap is None:
+            lines.append(SightLine(point, point + FAR * rays.rays.size * normal, "clear"))
+            words = "Nothing stands before this face"
+        else:
+            dots.append(np.array(gap.point))
+            lines.append(SightLine(point, dots[-1], "clear", short(gap.distance)))
+            words = f"“{self._name(rays, gap)}” is {short(gap.distance)} mm before this face"
+        if wall is not None:
+            dots.append(np.array(wall.point))
+            lines.append(SightLine(point, dots[-1], "wall", short(wall.distance)))
+            words += f"; the wall is {short(wall.distance)} mm thick"
+        self._marks.show(lines, dots, None if gap is None else rays.outline(gap))
+        self.said.emit(f"{words}; {ANEW['ray']}")
+
+    def _why_not(self) -> str:
+        return UNSORTED if self._hidden_surfaces.unsortable else SORTING
+
+    def _name(self, rays: SolidRays, hit: Hit) -> str:
+        node_id = next(step for step in reversed(rays.owner(hit.face)) if isinstance(step, str))
+        return next((node.label for node in walk(*self._session.view.roots) if node.id == node_id), node_id)
+
+    def _forget(self) -> None:
+        self.points, self.sight, self.about = (), None, None
+        if self._marks is not None:
+            self._marks.show(())
+        self._draw()
+
+    def _draw(self) -> None:
+        if self._viewer is not None:
+            self._viewer.needs_render = True
+            self._viewport.refresh()
