@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import argparse
-import json
 import os
+import re
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -31,8 +31,19 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = _command_parser()
     if not words or (words[0] not in _COMMANDS and not words[0].startswith("-")):
         return _window(words)
-    options = parser.parse_args(words)
+    options = parser.parse_args(words if words[0] == "run" else _joined(words))
     return _guarded(options.run, options)
+
+
+def _joined(words: Sequence[str]) -> list[str]:
+    """`--eye -1,2,3` as `--eye=-1,2,3`: argparse would take the point, because of its minus, for an option."""
+    joined: list[str] = []
+    for word in words:
+        if joined and re.fullmatch(r"--[a-z-]+", joined[-1]) and re.fullmatch(r"-[\d.][^,]*,.*", word):
+            joined[-1] += f"={word}"
+        else:
+            joined.append(word)
+    return joined
 
 
 def _guarded(run: Callable[[argparse.Namespace], int], options: argparse.Namespace) -> int:
@@ -41,30 +52,44 @@ def _guarded(run: Callable[[argparse.Namespace], int], options: argparse.Namespa
     try:
         return run(options)
     except Refusal as refusal:
-        return _complain(about, str(refusal))
+        return complain(about, str(refusal))
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return DONE
     except KeyboardInterrupt:
-        return _complain(about, "interrupted")
+        return complain(about, "interrupted")
     except MemoryError:
-        return _complain(about, "there is not enough memory for this")
+        return complain(about, "there is not enough memory for this")
     except OSError as error:
         from ..model.project.disk import reason_of
 
-        return _complain(error.filename or about, reason_of(error))
+        return complain(error.filename or about, reason_of(error))
 
 
-def _complain(about: object, reason: str) -> int:
+def complain(about: object, reason: str) -> int:
+    """Say why nothing was done, in one line; the result is the status."""
     reason = " ".join(reason.split())
     print(f"solidtree: {about}: {reason}" if about else f"solidtree: {reason}", file=sys.stderr)
     return REFUSED
 
 
+def warn(about: object, words: str) -> None:
+    """Say something that does not keep the command from being done."""
+    print(f"solidtree: {about}: {words}", file=sys.stderr)
+
+
+def naming(file: str, act: Callable[[], object]) -> None:
+    """Do something about another file than the first; what is refused names it."""
+    try:
+        act()
+    except Refusal as refusal:
+        raise SystemExit(complain(file, str(refusal))) from None
+
+
 def _window(files: list[str]) -> int:
     for file in files:
         if not Path(file).is_file():
-            return _complain(file, "there is no such file")
+            return complain(file, "there is no such file")
     from .application import run
 
     return run(files)
@@ -145,218 +170,36 @@ class Bar:
             print("\r" + " " * 76 + "\r", end="", file=sys.stderr, flush=True)
 
 
-def _info_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
-    command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
-    command.add_argument("--nodes", action="store_true", help="measure every node of the trees by itself, too")
-    command.add_argument("--walls", action="store_true", help="estimate the least wall of each solid by 2,000 rays")
-    _parameter_options(command)
+def _in_shell(module: str, name: str) -> Callable[[Any], Any]:
+    """A function of a module in shell/, which is imported when it is called."""
 
+    def call(argument: Any) -> Any:
+        from importlib import import_module
 
-def _info(options: argparse.Namespace) -> int:
-    from ..model.solid.information import information
-    from .shell.parameters import read_with_values
+        return getattr(import_module(f"{__package__}.shell.{module}"), name)(argument)
 
-    document = read_with_values(options)
-    bar = Bar(document)
-    try:
-        answer, in_order = information(document, options.tolerance, bar, options.nodes, options.walls)
-    finally:
-        bar.end()
-    print(json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False))
-    return DONE if in_order else NOT_IN_ORDER
-
-
-def _export_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
-    command.add_argument("out", metavar="OUT", help="the file to write; its ending tells the format")
-    command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")
-    command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
-    _parameter_options(command)
-
-
-def _parameter_options(command: argparse.ArgumentParser) -> None:
-    from .shell.parameters import add_options
-
-    add_options(command)
-
-
-def _convert_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="IN")
-    command.add_argument("out", metavar="OUT")
-    command.set_defaults(solid=None, tolerance=TOLERANCE, set=None, sets=None, parameter=[])
-
-
-def _export(options: argparse.Namespace) -> int:
-    from ..model.exchange.export import solids_to_write
-    from ..model.exchange.meshes_out import check_ending, write_meshes
-    from .shell.parameters import read_with_values
-
-    out = Path(options.out)
-    project = out.suffix.lower() == ".solidtree"
-    if not project:
-        _about(options.out, lambda: check_ending(out))
-    document = read_with_values(options)
-    if project:
-        from ..model.project.project_file import save_project
-
-        _about(options.out, lambda: save_project(document, out))
-        return DONE
-    bar = Bar(document)
-    try:
-        results, solids = solids_to_write(document, options.tolerance, options.solid, bar)
-    finally:
-        bar.end()
-    _about(options.out, lambda: write_meshes(out, solids))
-    for message in (message for result in results for message in result.messages):
-        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
-    empty = [result for result in results if result.solid is None or result.solid.is_empty()]
-    return NOT_IN_ORDER if empty else DONE
-
-
-def _about(file: str, act: Callable[[], Any]) -> None:
-    """Do something about another file than the first; what is refused names it."""
-    try:
-        act()
-    except Refusal as refusal:
-        raise SystemExit(_complain(file, str(refusal))) from None
-
-
-def _diagram_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
-    command.add_argument("out", metavar="OUT.svg")
-    command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all")
-
-
-def _diagram(options: argparse.Namespace) -> int:
-    from ..render.drawing.csg_diagram import diagram
-
-    out = Path(options.out)
-    if out.suffix.lower() != ".svg":
-        return _complain(out, "a diagram is written as SVG; let the name end in .svg")
-    diagram(read(options.file), out, options.solid)
-    return DONE
-
-
-def _run_options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("file", metavar="SCRIPT.py")
-    command.add_argument("arguments", metavar="ARG", nargs=argparse.REMAINDER, help="handed to the script in sys.argv")
-
-
-def _run(options: argparse.Namespace) -> int:
-    """A script with the names of solidtree.model.script at hand."""
-    import builtins
-    import traceback
-
-    from ..model import script
-    from ..render.drawing.csg_diagram import diagram
-
-    path = Path(options.file)
-    try:
-        code = compile(path.read_bytes(), str(path), "exec")
-    except SyntaxError as error:
-        return _complain(f"{path}:{error.lineno}", error.msg)
-    except ValueError as error:
-        return _complain(path, str(error))
-    sys.argv = [options.file, *options.arguments]
-    sys.path.insert(0, str(path.parent.resolve()))
-    names = {name: getattr(script, name) for name in script.__all__} | {"diagram": diagram}
-    try:
-        exec(code, {**names, "__name__": "__main__", "__file__": str(path), "__builtins__": builtins})
-    except Exception as error:
-        # The script's own line, not ours: where it went wrong and what Python or the model says of it.
-        frames = [frame for frame in traceback.extract_tb(error.__traceback__) if frame.filename == str(path)]
-        where = f"{path}:{frames[-1].lineno}" if frames else str(path)
-        what = str(error) if isinstance(error, Refusal) else f"{type(error).__name__}: {error}"
-        return _complain(where, what)
-    return DONE
-
-
-def _sets_options(command: argparse.ArgumentParser) -> None:
-    from .shell.parameters import add_sets_options
-
-    add_sets_options(command)
-
-
-def _sets(options: argparse.Namespace) -> int:
-    from .shell.parameters import sets
-
-    return sets(options)
-
-
-def _render_options(command: argparse.ArgumentParser) -> None:
-    from .shell.render import add_options
-
-    add_options(command)
-
-
-def _render(options: argparse.Namespace) -> int:
-    from .shell.render import render
-
-    return render(options)
-
-
-def _ray_options(command: argparse.ArgumentParser) -> None:
-    from .shell.ray import add_options
-
-    add_options(command)
-
-
-def _ray(options: argparse.Namespace) -> int:
-    from .shell.ray import ray
-
-    return ray(options)
-
-
-def _section_options(command: argparse.ArgumentParser) -> None:
-    from .shell.section import add_options
-
-    add_options(command)
-
-
-def _section(options: argparse.Namespace) -> int:
-    from .shell.section import section
-
-    return section(options)
-
-
-def _draw_options(command: argparse.ArgumentParser) -> None:
-    from .shell.draw import add_options
-
-    add_options(command)
-
-
-def _draw(options: argparse.Namespace) -> int:
-    from .shell.draw import draw
-
-    return draw(options)
-
-
-def _bsp_options(command: argparse.ArgumentParser) -> None:
-    from .shell.bsp import add_options
-
-    add_options(command)
-
-
-def _bsp(options: argparse.Namespace) -> int:
-    from .shell.bsp import bsp
-
-    return bsp(options)
+    return call
 
 
 _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[argparse.Namespace], int], str]] = {
-    "info": (_info_options, _info, "measurements as one JSON object on standard output"),
-    "export": (_export_options, _export, "write a mesh file: stl, 3mf, obj, ply, off or glb by OUT's ending"),
-    "convert": (_convert_options, _export, "turn one file into another format"),
-    "render": (_render_options, _render, "a picture as PNG"),
-    "draw": (_draw_options, _draw, "a drawing with hidden faces and lines removed, as SVG, PDF or DXF"),
-    "sets": (_sets_options, _sets, "the saved sets of parameter values, as JSON of OpenSCAD's customizer, or as CSV"),
-    "ray": (_ray_options, _ray, "the first face on a ray, or whether two points see each other, as JSON"),
-    "section": (_section_options, _section, "the outlines in which a plane cuts the solids, as SVG or DXF"),
-    "bsp": (_bsp_options, _bsp, "the BSP tree that hidden surfaces are sorted by: its figures as JSON"),
-    "diagram": (_diagram_options, _diagram, "the CSG diagram of the tree as SVG"),
-    "run": (_run_options, _run, "run a script with the names of solidtree.model.script at hand"),
-}
+    name: (_in_shell(module, options), _in_shell(module, run), what)
+    for name, module, options, run, what in (
+        ("info", "info", "add_options", "info", "measurements as one JSON object on standard output"),
+        ("export", "export", "add_options", "export",
+         "write a mesh file: stl, 3mf, obj, ply, off or glb by OUT's ending"),
+        ("convert", "export", "add_convert_options", "export", "turn one file into another format"),
+        ("render", "render", "add_options", "render", "a picture as PNG"),
+        ("draw", "draw", "add_options", "draw", "a drawing with hidden faces and lines removed, as SVG, PDF or DXF"),
+        ("sets", "parameters", "add_sets_options", "sets",
+         "the saved sets of parameter values, as JSON of OpenSCAD's customizer, or as CSV"),
+        ("ray", "ray", "add_options", "ray", "the first face on a ray, or whether two points see each other, as JSON"),
+        ("section", "section", "add_options", "section",
+         "the outlines in which a plane cuts the solids, as SVG or DXF"),
+        ("bsp", "bsp", "add_options", "bsp", "the BSP tree that hidden surfaces are sorted by: its figures as JSON"),
+        ("diagram", "diagram", "add_options", "diagram", "the CSG diagram of the tree as SVG"),
+        ("run", "run", "add_options", "run", "run a script with the names of solidtree.model.script at hand"),
+    )
+}  # fmt: skip
 
 if __name__ == "__main__":
     sys.exit(main())

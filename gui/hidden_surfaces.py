@@ -151,6 +151,11 @@ class HiddenSurfaces(QObject):
                 self._trees.start_again()
             self._idle.start()
 
+    def document_opened(self) -> None:
+        """What was shown before does not come back."""
+        self._trees.clear()
+        self._before = self._given_up = ()
+
     def close(self) -> None:
         self._soon.stop()
         self._idle.stop()
@@ -232,11 +237,12 @@ class HiddenSurfaces(QObject):
     def _ask_ahead(self) -> None:
         """Ask the worker for the tree of what stays when the selected nodes are dragged, while it has nothing to do."""
         busy = self._evaluation.waiting or self._evaluation.jobs.at_work or self._session.previewing
-        if self.mode != BSP or busy or self._soon.isActive() or self._trees.fits(self._shown):
+        if self.mode != BSP or busy or self.unsortable or self._soon.isActive() or self._trees.fits(self._shown):
             return
         moving = homes(self._session.view, self._session.selection)
         still = tuple(entry for entry in self._shown if entry[0] not in moving)
-        if len(still) < len(self._shown) and self._may_move(still) and still not in self._trees:
+        known = still in self._trees or still == self._given_up
+        if len(still) < len(self._shown) and not known and self._may_move(still):
             self._send(still, ahead=True)
 
     def _send(self, shown: Shown, ahead: bool = False) -> None:

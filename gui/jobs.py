@@ -46,6 +46,7 @@ class Jobs(QObject):
         self._closed = False
         self._exports: set[int] = set()
         self._partition: int | None = None
+        self._ahead = False  # nobody waits for the partition
         self._drawing: int | None = None
         self.lane: Lane | None = None
 
@@ -64,7 +65,7 @@ class Jobs(QObject):
     @property
     def label(self) -> str:
         """What is going on, where the lane has not told yet."""
-        return SORTING if self.partitioning and not self.exporting else ""
+        return SORTING if self.partitioning and not (self.exporting or self._ahead) else ""
 
     def export(
         self,
@@ -86,7 +87,7 @@ class Jobs(QObject):
         `ahead`: nobody waits for it.
         """
         if meshes:
-            self._partition = self._started().partition(meshes)
+            self._partition, self._ahead = self._started().partition(meshes), ahead
             if not ahead:
                 self.began.emit()
         elif self._partition is not None and self.lane is not None:
@@ -121,7 +122,8 @@ class Jobs(QObject):
             self.notice.emit("The export was cancelled; no file was written")
         if self.partitioning:
             self._partition = None
-            self.notice.emit("Sorting was cancelled: the picture is drawn with the z-buffer")
+            if not self._ahead:
+                self.notice.emit("Sorting was cancelled: the picture is drawn with the z-buffer")
             self.partitioned.emit(None, 0.0)
 
     def close(self) -> None:
@@ -173,6 +175,6 @@ class Jobs(QObject):
     def _sorted(self, tree: object, seconds: float, fault: str | None) -> None:
         self._partition = None
         self.rested.emit()
-        if fault:
+        if fault and not self._ahead:
             self.notice.emit(f"The faces were not sorted: {fault}")
         self.partitioned.emit(tree, seconds)

@@ -10,21 +10,11 @@ from PySide6.QtCore import QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QApplication, QMainWindow
 
-from ..model.editing.commands import DOCUMENT_COMMANDS
 from ..model.editing.session import Session, State
-from ..model.editing.tree_commands import TREE_COMMANDS
 from .commands.actions import Actions
-from .commands.arrange import ARRANGE_COMMANDS
-from .commands.drawing import DRAWING_COMMANDS
-from .commands.handles import HANDLE_COMMANDS
-from .commands.hidden_surfaces import HIDDEN_SURFACE_COMMANDS
-from .commands.measure import MEASURE_COMMANDS
 from .commands.menus import fill_menus
-from .commands.parameters import PARAMETER_COMMANDS
-from .commands.partition import PARTITION_COMMANDS
-from .commands.sections import SECTION_COMMANDS
-from .commands.sight import SIGHT_COMMANDS
-from .commands.views import FILE_COMMANDS, TOOL_BAR, VIEW_COMMANDS
+from .commands.tables import add_commands
+from .commands.views import TOOL_BAR
 from .docks import arrange, give_sizes, switch_layout
 from .evaluation import Evaluation
 from .files import Files
@@ -50,7 +40,6 @@ from .tools.section_tool import SectionTool
 from .tools.sight import SightTool
 from .tools.tool_menu import SpaceBar
 from .tree.diagram import Diagram
-from .tree.edit_commands import EDIT_COMMANDS
 from .tree.model_panel import ModelPanel
 from .tree.tree import Tree
 from .view.ghosts import OperandGhosts
@@ -90,30 +79,17 @@ class MainWindow(QMainWindow):
         self.hidden_surfaces = HiddenSurfaces(self.session, self.viewport, self.evaluation, self.settings, self)
         self.files = Files(self, self.session, self.evaluation, self.settings, self._picture)
         self.actions_ = Actions(self, self.settings)
-        self.actions_.add(FILE_COMMANDS, self)
-        self.actions_.add(DRAWING_COMMANDS, self)
-        self.actions_.add(PARAMETER_COMMANDS, self)
-        self.actions_.add(DOCUMENT_COMMANDS, self.session)
-        self.actions_.add(TREE_COMMANDS, self.session)
-        self.actions_.add(EDIT_COMMANDS, self)
-        self.actions_.add(VIEW_COMMANDS, self)
-        self.actions_.add(HIDDEN_SURFACE_COMMANDS, self)
-        self.actions_.add(PARTITION_COMMANDS, self)
+        add_commands(self.actions_, self)
         self.section_tool = SectionTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.section_tool)
-        self.actions_.add(SECTION_COMMANDS, self)
         self.handles = Handles(self.viewport, self.session, self.settings, lambda: self.looks.ghosts)
         self.viewport.add_tool(self.handles)
-        self.actions_.add(HANDLE_COMMANDS, self)
         self.place_on_face = PlaceOnFace(self.session, self.viewport, lambda i: self.evaluation.parts.get(i), self)
         self.viewport.add_tool(self.place_on_face)
         self.measure = MeasureTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.measure)
-        self.actions_.add(MEASURE_COMMANDS, self)
         self.sight = SightTool(self.session, self.viewport, self.hidden_surfaces, self)
         self.viewport.add_tool(self.sight)
-        self.actions_.add(SIGHT_COMMANDS, self)
-        self.actions_.add(ARRANGE_COMMANDS, self)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()
@@ -243,6 +219,7 @@ class MainWindow(QMainWindow):
 
     def opened(self) -> None:
         self.viewport.fit_next()
+        self.hidden_surfaces.document_opened()
         self.tree.document_opened()
         self.diagram.document_opened()
 

@@ -96,6 +96,7 @@ class Viewer:
         if not self._closed:
             self._closed = True
             self.scene.show({})
+            self.scene.painter.clear()
             self.ghosts.show(())
             close(self.window)
 

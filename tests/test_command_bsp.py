@@ -37,7 +37,7 @@ def test_the_textbook_takes_a_plane_for_every_side_of_a_box(solidtree, file):
 
 def test_what_cannot_be_is_said_in_one_line(solidtree, file, tmp_path):
     assert solidtree("bsp", file, "--solid", "c") == (
-        2, "", f"solidtree: {file}: no visible solid is called “c”\n")  # fmt: skip
+        2, "", f"solidtree: {file}: there is no solid called “c”; there is “a”, “b”\n")  # fmt: skip
     save(tmp_path / "many.solidtree", document_of(sphere(10, segments=60)))
     status, out, err = solidtree("bsp", tmp_path / "many.solidtree", "--builder", "textbook")
     assert (status, out) == (2, "") and f"up to {MOST_IN_ORDER:,} faces" in err and err.count("\n") == 1

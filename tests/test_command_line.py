@@ -112,6 +112,20 @@ def test_info_tells_what_failed_and_what_is_empty(solidtree, tmp_path):
     assert {warning["node"] for warning in answer["warnings"]} == {"endless", "nothing"}
 
 
+def test_a_point_may_begin_with_a_minus(solidtree, tmp_path):
+    save(tmp_path / "block.solidtree", block=box(10))
+    status, out, err = solidtree("ray", tmp_path / "block.solidtree", "--origin", "-5,5,5", "--direction", "1,0,0")
+    assert (status, err) == (0, "") and json.loads(out)["hit"]["distance"] == pytest.approx(5)
+    status, out, err = solidtree("ray", tmp_path / "block.solidtree", "--from", "-.5,5,5", "--to", "-1e1,5,5")
+    assert (status, err) == (0, "") and json.loads(out)["sees"] is True
+
+
+def test_a_picture_of_nothing_says_so(solidtree, tmp_path):
+    save(tmp_path / "none.solidtree")
+    status, out, err = solidtree("render", tmp_path / "none.solidtree", tmp_path / "none.png")
+    assert (status, out) == (1, "") and err.endswith("there is nothing to be seen\n") and err.count("\n") == 1
+
+
 def test_info_of_an_open_mesh(solidtree, tmp_path):
     (tmp_path / "tent.off").write_text(
         "OFF\n5 4 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n.5 .5 1\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"

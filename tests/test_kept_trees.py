@@ -1,5 +1,8 @@
 """Trees that are kept by what is shown, and put together from them."""
 
+import gc
+from sys import getrefcount
+
 import pytest
 
 from solidtree.gui.view.kept_trees import MOST_PIECES, KeptTrees, meshes, triangles
@@ -65,6 +68,18 @@ def test_the_oldest_trees_go_when_there_are_too_many_pieces(shown, monkeypatch):
     trees.build(shown[2:])
     assert shown[1:2] not in trees and shown[:1] in trees and shown[2:] in trees
     assert [mesh for _, mesh in shown] == list(meshes(shown))
+
+
+def test_cleared_trees_are_gone_and_hold_nothing_that_was_shown(shown):
+    trees, entry = KeptTrees(), shown[0]
+    before = getrefcount(entry)
+    tree = trees.build(shown[:1]).tree
+    trees.find(shown)
+    assert trees.seconds(tree) is not None and getrefcount(entry) > before
+    trees.clear()
+    gc.collect()
+    assert getrefcount(entry) == before
+    assert trees.find(shown[:1]) is None and trees.seconds(tree) is None
 
 
 def test_many_triangles_do_not_fit_into_a_picture_s_time(shown):

@@ -154,6 +154,28 @@ def test_a_body_turned_inside_out_keeps_its_near_faces():
     assert differing([flat_mesh(points, triangles[:, ::-1].copy())], "iso")[0] == 0
 
 
+def test_one_shell_of_two_turned_inside_out_keeps_its_near_faces():
+    points, triangles = welded(box())
+    aside = points * 0.8 + (1.5 * np.ptp(points[:, 0]), 0.0, 0.0)
+    for turned, closed in ((triangles, True), (triangles[:, ::-1], False)):
+        two = flat_mesh(np.concatenate([points, aside]), np.concatenate([triangles, turned + len(points)]))
+        assert is_closed(two) == closed
+        for camera in ("iso", "front"):
+            wrong, shown = differing([two], camera, facet_numbers([two]))
+            assert shown > 1000 and wrong <= 0.0002 * shown
+
+
+def test_a_painter_goes_with_its_picture():
+    import gc
+
+    from solidtree.render.painter.depth import DepthAlways
+
+    for mode in MODES:
+        picture(solids(), (40, 30), hidden_surface=mode)
+    gc.collect()
+    assert not any(isinstance(found, DepthAlways) for found in gc.get_objects())
+
+
 def welded(mesh):
     points, corners = np.unique(mesh.vertices, axis=0, return_inverse=True)
     return points, corners.reshape(-1)[mesh.corners].astype(np.int32)

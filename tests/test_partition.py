@@ -310,3 +310,17 @@ def test_two_solids_of_one_mesh_each_keep_their_numbers():
     assert faces.count == sum(len(mesh.triangles) for mesh in meshes)
     tree = build(faces)
     assert set(tree.source.tolist()) == set(range(faces.count))
+
+
+def test_the_textbooks_builder_refuses_what_it_would_cut_for_minutes():
+    corners = np.random.default_rng(1).normal(size=(400, 3, 3))
+    with pytest.raises(Refusal, match="more than 50,000 times"):
+        build_in_order(faces_of_polygons(list(corners)))
+
+
+@pytest.mark.parametrize("turned", [1, -1])
+def test_of_faces_that_face_each_other_in_one_plane_the_later_one_is_on_top(compiled: bool, turned: int):
+    square = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
+    tree = build(faces_of_polygons([square[::turned], square[::-turned]]), compiled=compiled)
+    for eye in ((0, 0, 5), (0, 0, -5)):
+        assert Sorter(tree, compiled).fragments(eye).tolist() == [0, 1]

@@ -21,9 +21,9 @@ from solidtree.model.script import (
     sphere,
     union,
 )
-from solidtree.model.scripting import documents, joining, shapes, sight
+from solidtree.model.scripting import documents, hidden_surfaces, joining, shapes, sight
 
-PARTS = (shapes, joining, documents, sight)
+PARTS = (shapes, joining, documents, hidden_surfaces, sight)
 
 
 def test_the_examples_in_the_words_are_true():

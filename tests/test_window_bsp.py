@@ -117,6 +117,8 @@ def test_a_probe_is_typed_or_clicked_and_f_is_told_at_each_plane(make_window):
             assert float(told.removesuffix(" mm")) == pytest.approx(step.height, rel=1e-4)
     write("1, 2")
     assert "is no point" in driver.window.statusBar().currentMessage() and page.table.rowCount() == len(way)
+    write("1, 5, -4")
+    assert driver.window.statusBar().currentMessage() == "" and page.table.rowCount() == len(way)
     page.pick.click()
     assert driver.window.bsp.probe.active
     driver.click_at((32.5, 2.5, 5.0))
@@ -139,6 +141,23 @@ def test_the_textbooks_builder_makes_its_own_tree_and_says_where_it_would_not(ma
     page.builder.activated.emit(0)
     driver.qtbot.waitUntil(lambda: explorer.source.settled and explorer.source.tree is not None)
     assert explorer.source.report.counts.depth == 1
+
+
+def test_what_the_textbooks_builder_refuses_is_said_and_the_good_tree_comes_back(make_window, monkeypatch):
+    from solidtree.model.partition import textbook
+
+    monkeypatch.setattr(textbook, "MOST_CUTS", -1)
+    driver, explorer, page = opened(make_window)
+    page.builder.setCurrentIndex(1)
+    page.builder.activated.emit(1)
+    driver.qtbot.waitUntil(lambda: explorer.source.settled and page.empty.text().startswith("The textbook's builder"))
+    page.builder.activated.emit(0)
+    driver.qtbot.waitUntil(lambda: explorer.source.settled and explorer.source.tree is not None)
+    # A refusal that comes when the good builder has been chosen again is no longer of interest.
+    page.builder.activated.emit(1)
+    page.builder.activated.emit(0)
+    driver.qtbot.waitUntil(lambda: explorer.source.settled and explorer.source.tree is not None)
+    assert explorer.source.words == "" and explorer.source.report.builder != "textbook"
 
 
 def test_without_a_sorted_picture_the_panel_offers_to_sort(make_window):
@@ -170,7 +189,7 @@ def test_the_figure_says_what_the_text_says_and_follows_the_eye(make_window):
     figure = driver.window.bsp.figure
     driver.qtbot.waitUntil(figure.isVisible)
     assert figure.picture.pruned == {"B", "C"} and set(figure.picture.order) == set("ADE")
-    assert "B (behind h1); C (before h2)" in figure.words.text()
+    assert "B (behind h1); C (in front of h2)" in figure.words.text()
     rows = figure.table.rowCount()
     start = figure.picture.to_widget(figure.picture.probe)
     driver.qtbot.mousePress(figure.picture, LEFT, pos=start.toPoint())
@@ -178,7 +197,7 @@ def test_the_figure_says_what_the_text_says_and_follows_the_eye(make_window):
     driver.qtbot.mouseMove(figure.picture, goal)
     drag(figure.picture, goal)
     driver.qtbot.mouseRelease(figure.picture, LEFT, pos=goal)
-    assert figure.table.rowCount() == 2 < rows and figure.table.item(0, 2).text() == "behind: f(p) < 0"
+    assert figure.table.rowCount() == 2 < rows and figure.table.item(0, 2).text() == "behind (< 0)"
     assert figure.table.item(1, 0).text() == "B"
     for _ in range(12):
         driver.keys("Ctrl+Left", figure.picture)  # the view turns to the left, over h1

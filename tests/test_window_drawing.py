@@ -66,6 +66,16 @@ def test_what_does_not_fit_is_said_beside_the_choices_and_cannot_be_saved(dialog
     assert dialog.hint.text() == ""
 
 
+def test_enter_does_not_save_before_the_preview_has_followed(dialog):
+    field = dialog.choices.scale.lineEdit()
+    field.selectAll()
+    dialog.driver.qtbot.keyClicks(field, "1:5")
+    dialog.driver.keys("Return", field)
+    assert dialog.findChild(QFileDialog) is None
+    settle(dialog)
+    assert dialog.preview.page.scale == 0.2
+
+
 def test_the_page_is_drawn_in_its_colours_and_zooms_about_the_pointer(dialog):
     dialog.choices.faces.setChecked(True)
     page = choose(dialog, dialog.choices.view, "Top")

@@ -205,6 +205,22 @@ def test_a_large_model_is_sorted_by_the_worker_and_cancel_leaves_the_z_buffer(sc
     scene.assert_as_by_depth()
 
 
+@pytest.mark.skipif(not native.available(), reason="nothing is sorted ahead without the compiled builder")
+def test_what_was_given_up_is_not_asked_for_again_by_itself(scene):
+    driver, hidden, jobs = scene.driver, scene.hidden, scene.window.evaluation.jobs
+    driver.open(crossing(9))
+    driver.session.select([driver.node("pin").id])
+    hidden.set_mode("bsp")
+    driver.qtbot.waitUntil(lambda: jobs.partitioning, timeout=5000)
+    jobs.cancel()
+    scene.settle(tree=False)
+    hidden.set_mode("bsp")
+    driver.qtbot.waitUntil(lambda: hidden.builds == 1 and jobs.partitioning, timeout=20000)  # what stays when pin moves
+    jobs.cancel()
+    scene.settle()
+    assert hidden.builds == 1
+
+
 def test_a_long_sort_shows_what_is_going_on(scene):
     driver, hidden, status = scene.driver, scene.hidden, scene.window.status
     driver.open(document_of(*(sphere(9, segments=400).at(i, 0.7 * i, 0.3 * i) for i in range(4))))

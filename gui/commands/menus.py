@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib.resources import as_file, files
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtWidgets import QMenu
 
 from ... import resources
+from ...model.editing.commands import Command
 from ..icons import icon
 from .arrange import ARRANGE_SEPARATORS
 
@@ -34,6 +36,16 @@ ORDER = {
 
 A command that is not named here stands at the top, so that it is seen.
 """
+
+
+def in_menu_order(menu: str, commands: Iterable[Command]) -> list[Command]:
+    """Those of the commands that stand in a menu or in its submenus, from top to bottom."""
+    places = {name: place for place, name in enumerate(ORDER.get(menu, "").split())}
+
+    def place(command: Command) -> int:
+        return places.get(command.name, places.get(command.menu.replace(" ", "_"), -1))
+
+    return sorted((command for command in commands if command.menu.split("/")[0] == menu), key=place)
 
 
 def fill_menus(window: MainWindow) -> None:

@@ -87,8 +87,8 @@ class DrawingDialog(QDialog):
         self._patience.setSingleShot(True)
         self._patience.setInterval(PATIENCE)
         self._patience.timeout.connect(lambda: self._set_working(True))
-        self.choices.changed.connect(lambda: self._later.start(0))
-        self.choices.typed.connect(lambda: self._later.start(PAUSE))
+        self.choices.changed.connect(lambda: self._draw_in(0))
+        self.choices.typed.connect(lambda: self._draw_in(PAUSE))
         jobs.drawn.connect(self._drawn)
         jobs.drawing_progress.connect(self._progressed)
         self.finished.connect(lambda _: jobs.stop_drawing())
@@ -106,7 +106,7 @@ class DrawingDialog(QDialog):
         column.addWidget(self.progress)
         column.addWidget(self.stop, 0, Qt.AlignmentFlag.AlignLeft)
         side = QWidget(self)
-        side.setMinimumWidth(PANEL)
+        side.setMinimumWidth(max(PANEL, self.choices.minimumSizeHint().width()))
         side.setLayout(column)
         column.setContentsMargins(0, 0, 0, 0)
         both = QHBoxLayout()
@@ -119,6 +119,11 @@ class DrawingDialog(QDialog):
         layout.addLayout(both, 1)
         layout.addWidget(self.buttons)
 
+    def _draw_in(self, pause: int) -> None:
+        """Follow the choices after some milliseconds; what is shown until then is not what Enter should save."""
+        self.save_button.setEnabled(False)
+        self._later.start(pause)
+
     def _draw(self) -> None:
         try:
             asked = (self.choices.plan(), self.choices.chosen_tolerance(), self.choices.solid.currentData())
@@ -127,7 +132,6 @@ class DrawingDialog(QDialog):
             self._fail(str(refusal))
             return
         self._asked = asked
-        self.save_button.setEnabled(False)
         self._jobs.draw(self._document, *asked)
         if self.stop.isHidden():
             self._patience.start()

@@ -7,6 +7,7 @@ from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QDialog, QFrame, QGridLayout, QHBoxLayout, QLabel, QScrollArea, QVBoxLayout, QWidget
 
 from ..commands.actions import MENUS, Actions
+from ..commands.menus import in_menu_order
 
 COLUMNS = 3
 MOUSE = (
@@ -64,9 +65,9 @@ class CheatSheet(QDialog):
         ]
         for menu in MENUS:
             rows = []
-            for command in actions.commands():
+            for command in in_menu_order(menu, actions.commands()):
                 keys = [QKeySequence(one) for one in actions.keys(command.name).split("; ") if one]
-                if keys and command.menu.split("/")[0] == menu:
+                if keys:
                     words = ", ".join(key.toString(QKeySequence.SequenceFormat.NativeText) for key in keys)
                     rows.append((words, command.title))
             if rows:

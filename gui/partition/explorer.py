@@ -182,7 +182,8 @@ class Explorer(QObject):
             marks.show_step(fragment, _tints())
             page.picture.show_step(node)
             name = self.names[node]
-            where = f"in the plane of {name}" if name.startswith("h") else f"one of a leaf of {name}"
+            in_leaf = "alone in its leaf" if name == "1" else f"in a leaf of {name}"
+            where = f"in the plane of {name}" if name.startswith("h") else in_leaf
             page.order.say(f"{count:,} of {len(order):,}: {makers.words(fragment)}, {where}.")
         else:
             marks.show_step(None)

@@ -83,7 +83,7 @@ class FigurePage(QWidget):
         tree, names = self._figure.tree, self._figure.names
         for above in range(len(names)):
             if node == tree.front[above]:
-                return f"before {names[above]}"
+                return f"in front of {names[above]}"
             if node == tree.back[above]:
                 return f"behind {names[above]}"
         raise AssertionError(node)

@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 from ...model.document.errors import Refusal
 from ...model.document.expression import Expression, number
 from ..icons import icon
+from ..panels.property_edit import sentence
 from ..panels.text_line import TextLine
 from .order_bar import OrderBar
 from .tree_picture import TreePicture
@@ -34,7 +35,8 @@ BUILDERS = (
 class ModelPage(QWidget):
     """The widgets of the page; what they show and do is the explorer's.
 
-    `probed` carries a point that was typed, None where the field was emptied; `refused` why one cannot be read.
+    `probed` carries a point that was typed, None where the field was emptied; `refused` why one cannot be read, "" when
+    it can.
     """
 
     builder_chosen = Signal(str)
@@ -147,12 +149,16 @@ class ModelPage(QWidget):
         self.point.setModified(False)
         text = self.point.text()
         if not text.strip():
+            self.refused.emit("")
             self.probed.emit(None)
             return
         try:
-            self.probed.emit(point_from(text))
+            point = point_from(text)
         except Refusal as refusal:
-            self.refused.emit(str(refusal))
+            self.refused.emit(sentence(refusal))
+            return
+        self.refused.emit("")
+        self.probed.emit(point)
 
 
 def point_from(text: str) -> tuple[float, float, float]:

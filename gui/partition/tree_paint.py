@@ -69,12 +69,8 @@ class TreePainter:
 
     def _edge(self, item: Item, above: Item) -> None:
         painter, picture = self._painter, self._picture
-        if item.role == "fold":
-            grey = item.node in picture.greyed
-            on_way = False
-        else:
-            grey = item.node in picture.greyed
-            on_way = item.node in picture.way and item.node >= 0
+        grey = item.node in picture.greyed
+        on_way = item.role != "fold" and item.node >= 0 and item.node in picture.way
         painter.setOpacity(FAINT if grey else 1.0)
         dashed = grey or item.role in ("empty", "fold")
         style = Qt.PenStyle.DashLine if dashed else Qt.PenStyle.SolidLine

@@ -149,8 +149,12 @@ class TreeSource(QObject):
         self._follow()
 
     def _failed(self, refusal: Refusal) -> None:
-        self._building = None
-        self._set(None, (), None, str(refusal))
+        tree, self._building = self._building, None
+        if self._active and self.builder == TEXTBOOK and self._hidden.tree is tree:
+            words = str(refusal)
+            self._set(None, (), None, f"{words[0].upper()}{words[1:]}.")
+        else:
+            self._follow()
 
     def _give_back(self) -> None:
         """Let the picture have its own tree again."""

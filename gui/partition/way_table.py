@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from ...model.partition.descent import Step
 
 TITLES = ("Node", "f(p)", "p lies")
-SIDES = {"front": "in front: f(p) > 0", "back": "behind: f(p) < 0", "in": "in the plane: f(p) = 0"}
+SIDES = {"front": "in front (> 0)", "back": "behind (< 0)", "in": "in the plane (= 0)"}
 
 
 class WayTable(QTableWidget):
@@ -43,8 +43,8 @@ class WayTable(QTableWidget):
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         header.setHighlightSections(False)
         header.setSectionResizeMode(2, QHeaderView.ResizeMode.Stretch)
-        self.setColumnWidth(0, 60)
-        self.setColumnWidth(1, 100)
+        for column in (0, 1):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.ResizeToContents)
         self.itemSelectionChanged.connect(self._selected)
 
     def show_way(self, steps: Sequence[Step], names: Sequence[str]) -> None:

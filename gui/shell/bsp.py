@@ -7,6 +7,7 @@ import json
 import sys
 
 from ...model.document.errors import Refusal
+from ...model.document.tree import chosen_solids
 from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, positive
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
@@ -33,14 +34,15 @@ def bsp(options: argparse.Namespace) -> int:
     from ...model.solid.results import evaluate_document
 
     document = read_with_values(options)
+    ids = [root.id for root in chosen_solids(document, options.solid)]
+    if not ids:
+        raise Refusal("no solid is visible" if document.solids else "the document holds no solid")
     bar = Bar(document)
     try:
-        evaluation = evaluate_document(document, options.tolerance, progress=bar)
+        evaluation = evaluate_document(document, options.tolerance, ids, progress=bar)
     finally:
         bar.end()
-    wanted = [result for result in evaluation.visible if options.solid in (None, result.root.label)]
-    if not wanted:
-        raise Refusal(f"no visible solid is called “{options.solid}”" if options.solid else "no solid is visible")
+    wanted = evaluation.solids
     for message in (message for result in wanted for message in result.messages):
         print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
     meshes = [evaluation.display(result) for result in wanted]

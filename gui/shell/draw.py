@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
@@ -11,7 +10,7 @@ from typing import TypeVar
 from ...model.document.errors import Refusal
 from ...model.drafting.paper import SIZES, papers, scale_from
 from ...model.drafting.plan import Eye, NothingToDraw, Plan
-from ..command_line import DONE, NOT_IN_ORDER, REFUSED, TOLERANCE, Bar, positive
+from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, naming, positive, warn
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 from .render import add_view_options
@@ -58,7 +57,7 @@ def draw(options: argparse.Namespace) -> int:
     from ...model.drafting.drawing_file import check_drawing_ending, write_page
     from ...model.drafting.drawn import Draughts
 
-    _about(options.out, lambda: check_drawing_ending(options.out))
+    naming(options.out, lambda: check_drawing_ending(options.out))
     plan = _plan(options)
     document = read_with_values(options)
     bar = Bar(document)
@@ -66,13 +65,13 @@ def draw(options: argparse.Namespace) -> int:
         drawn = Draughts(document, options.tolerance, options.solid).page(plan, bar, bar.show)
     except NothingToDraw as refusal:
         bar.end()
-        _warn(options.file, f"{refusal}; nothing was written")
+        warn(options.file, f"{refusal}; nothing was written")
         return NOT_IN_ORDER
     finally:
         bar.end()
     for message in drawn.messages:
-        _warn(options.file, f"“{message.name}”: {message.message}")
-    _about(options.out, lambda: write_page(options.out, drawn.page))
+        warn(options.file, f"“{message.name}”: {message.message}")
+    naming(options.out, lambda: write_page(options.out, drawn.page))
     return NOT_IN_ORDER if any(message.error for message in drawn.messages) else DONE
 
 
@@ -115,16 +114,3 @@ def _words(read: Callable[[str], Value]) -> Callable[[str], Value]:
             raise argparse.ArgumentTypeError(str(refusal)) from None
 
     return value
-
-
-def _about(file: str, act: Callable[[], object]) -> None:
-    """Do something about another file than the first; what is refused names it."""
-    try:
-        act()
-    except Refusal as refusal:
-        _warn(file, str(refusal))
-        raise SystemExit(REFUSED) from None
-
-
-def _warn(about: object, words: str) -> None:
-    print(f"solidtree: {about}: {words}", file=sys.stderr)

@@ -21,9 +21,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """The options of `ray`."""
     command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
     command.add_argument("--origin", type=vector, metavar="x,y,z", help="where the ray begins; needs --direction")
-    command.add_argument(
-        "--direction", type=vector, metavar="x,y,z", help="of any length; --direction=-1,0,0 where a minus comes first"
-    )
+    command.add_argument("--direction", type=vector, metavar="x,y,z", help="of any length")
     command.add_argument("--from", type=vector, metavar="x,y,z", dest="start", help="a point; needs --to")
     command.add_argument("--to", type=vector, metavar="x,y,z", dest="end", help="whether the first point sees this one")
     command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")

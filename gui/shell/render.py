@@ -172,8 +172,10 @@ def render(options: argparse.Namespace) -> int:
         if meshes and not any(_leaves(section, mesh) for mesh in meshes):
             print(f"solidtree: {options.file}: the section at {_numbers(section)} leaves nothing", file=sys.stderr)
             return NOT_IN_ORDER
-    fine = len(shown) == len(evaluation.visible) and any(len(mesh.triangles) for mesh in meshes)
-    return DONE if fine else NOT_IN_ORDER
+    if not any(len(mesh.triangles) for mesh in meshes):
+        print(f"solidtree: {options.file}: there is nothing to be seen", file=sys.stderr)
+        return NOT_IN_ORDER
+    return DONE if len(shown) == len(evaluation.visible) else NOT_IN_ORDER
 
 
 def _leaves(section: Section, mesh: DisplayMesh) -> bool:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import argparse
 import json
 import math
-import sys
 from typing import TYPE_CHECKING, Any
 
 from ...model.document.errors import Refusal
-from ..command_line import DONE, NOT_IN_ORDER, REFUSED, TOLERANCE, Bar, positive
+from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, naming, positive, warn
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 
@@ -33,9 +32,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     )
     where.add_argument("--point", type=vector, metavar="x,y,z", help="a point of the plane; needs --normal")
     where.add_argument("--name", metavar="SECTION", help="a section of the document, seen from its open side")
-    command.add_argument(
-        "--normal", type=vector, metavar="x,y,z", help="towards the viewer; --normal=-1,0,0 where a minus comes first"
-    )
+    command.add_argument("--normal", type=vector, metavar="x,y,z", help="towards the viewer")
     command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")
     command.add_argument("--fill", choices=("none", "colour", "hatch"), default="none", help="of an SVG's cut areas")
     command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
@@ -51,7 +48,7 @@ def section(options: argparse.Namespace) -> int:
     if (options.point is None) != (options.normal is None):
         raise Refusal("--point and --normal need each other")
     if options.out is not None:
-        _about(options.out, lambda: check_outline_ending(options.out))
+        naming(options.out, lambda: check_outline_ending(options.out))
     document = read_with_values(options)
     if options.name is not None:
         point, normal = facing(find_section(document, options.name))
@@ -65,12 +62,12 @@ def section(options: argparse.Namespace) -> int:
     finally:
         bar.end()
     for message in messages:
-        _warn(options.file, f"“{message.name}”: {message.message}")
+        warn(options.file, f"“{message.name}”: {message.message}")
     met = [one for one in found if len(one.outline.points)]
     if options.out is not None and met:
-        _about(options.out, lambda: write_outlines(options.out, named_outlines(found), options.fill))
+        naming(options.out, lambda: write_outlines(options.out, named_outlines(found), options.fill))
     elif not met:
-        _warn(options.file, "the plane meets no solid" + ("; nothing was written" if options.out else ""))
+        warn(options.file, "the plane meets no solid" + ("; nothing was written" if options.out else ""))
     figures = [{"name": one.name, **figures_of(one.outline)} for one in found]
     total = {key: sum(row[key] for row in figures) for key in ("area", "perimeter", "contours")}
     print(json.dumps({"solids": figures, "total": total}, indent=2, ensure_ascii=False, allow_nan=False))
@@ -109,16 +106,3 @@ def vector(text: str) -> tuple[float, ...]:
     if not all(math.isfinite(value) for value in (x, y, z)):
         raise argparse.ArgumentTypeError(f"{text!r} is not three numbers such as 10,-20,5")
     return x, y, z
-
-
-def _about(file: str, act: Any) -> None:
-    """Do something about another file than the first; what is refused names it."""
-    try:
-        act()
-    except Refusal as refusal:
-        _warn(file, str(refusal))
-        raise SystemExit(REFUSED) from None
-
-
-def _warn(about: object, words: str) -> None:
-    print(f"solidtree: {about}: {words}", file=sys.stderr)

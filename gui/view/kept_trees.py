@@ -80,6 +80,12 @@ class KeptTrees:
             del self._seconds[oldest]
             held -= len(tree.source)
 
+    def clear(self) -> None:
+        """Let go of all trees, and of the meshes that they are of."""
+        self._trees.clear()
+        self._seconds.clear()
+        self._moving = None
+
     def seconds(self, tree: Tree | None) -> float | None:
         """How long it took to build a tree that is kept; None for others."""
         return next((self._seconds[shown] for shown, kept in self._trees.items() if kept is tree), None)

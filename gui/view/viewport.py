@@ -13,7 +13,8 @@ from PySide6.QtWidgets import QToolTip, QWidget
 from ...model.editing.session import Session, State
 from .canvas import Canvas
 from .flight import Flight
-from .occurrences import Path, paint_of, paths_through, selected_bounds
+from .occurrences import Path, paths_through, selected_bounds
+from .painted import Painted
 from .pointing import Pointing
 
 if TYPE_CHECKING:
@@ -52,8 +53,7 @@ class Viewport(Canvas):
         self._holder: Tool | None = None
         self._session = session
         self._meshes: dict[str, Any] = {}
-        self._kept: dict[str, tuple[Any, Any, Any, Any]] = {}
-        self._by_node = False
+        self._painted = Painted()
         self.pointing: Pointing | None = None
         self._fit_pending = True
         self._pending: list[Callable[[Viewer], None]] = []
@@ -145,19 +145,7 @@ class Viewport(Canvas):
     def _show(self) -> None:
         if self.viewer is None:
             return
-        document = self._session.view
-        shown = {}
-        kept = {}
-        for root in document.solids:
-            mesh = self._meshes.get(root.id)
-            if mesh is None or not root.visible or not len(mesh.triangles):
-                continue
-            old = self._kept.get(root.id)
-            if old is None or old[0] is not root or old[1] is not document.definitions or old[2] is not mesh:
-                old = (root, document.definitions, mesh, paint_of(document, root, mesh, self._by_node))
-            kept[root.id] = old
-            shown[root.id] = (mesh, old[3])
-        self._kept = kept
+        shown = self._painted.of(self._session.view, self._meshes)
         self.viewer.show(shown)
         self.displayed.emit({root_id: mesh for root_id, (mesh, _) in shown.items()})
         self._highlight()
@@ -168,14 +156,12 @@ class Viewport(Canvas):
 
     def set_colour_by_node(self, by_node: bool) -> None:
         """Colour each face by the node that made it, or as the nodes are coloured."""
-        if by_node != self._by_node:
-            self._by_node = by_node
-            self._kept = {}
+        if self._painted.set_by_node(by_node):
             self._show()
 
     def _highlight(self) -> None:
         if self.viewer is not None:
-            owners = (mesh.owners for (mesh,) in ((entry[2],) for entry in self._kept.values()))
+            owners = (mesh.owners for mesh in self._painted.meshes)
             self.viewer.set_selection(paths_through(self._session.selection, owners))
             self.refresh()
 
@@ -198,7 +184,7 @@ class Viewport(Canvas):
             return
         from ...render.picture import union
 
-        bounds = selected_bounds(self._session.selection, [entry[2] for entry in self._kept.values()])
+        bounds = selected_bounds(self._session.selection, self._painted.meshes)
         self._fit_bounds(union(bounds, self.viewer.ghosts.bounds))
 
     def _fit_bounds(self, bounds: Any) -> None:
@@ -223,9 +209,8 @@ class Viewport(Canvas):
 
     def _fit_picked(self, pick: Pick | None) -> None:
         if self.pointing is not None:
-            meshes = [entry[2] for entry in self._kept.values()]
             ids = self.pointing.double_click(pick)
-            self._fit_bounds(selected_bounds(ids, meshes) if ids else None)
+            self._fit_bounds(selected_bounds(ids, self._painted.meshes) if ids else None)
 
     def _hovered(self, pick: Pick | None) -> None:
         if self.pointing is not None:

@@ -30,6 +30,17 @@ def find(document: Document, node_id: str) -> Node:
     return trail(document, node_id)[-1]
 
 
+def chosen_solids(document: Document, name: str | None) -> list[Node]:
+    """The solids of this name, or all that are visible for None. Raises Refusal where none is called so."""
+    if name is None:
+        return [root for root in document.solids if root.visible]
+    found = [root for root in document.solids if root.name == name]
+    if not found:
+        names = ", ".join(f"“{root.name}”" for root in document.solids)
+        raise Refusal(f"there is no solid called “{name}”; there is {names or 'none at all'}")
+    return found
+
+
 def trail(document: Document, node_id: str) -> tuple[Node, ...]:
     """The nodes from the root down to the one with this id. Raises Refusal."""
     return trails(document, [node_id])[node_id]

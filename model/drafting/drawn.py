@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..document.document import Document
-from ..document.errors import Refusal
+from ..document.tree import chosen_solids
 from ..drawing.drawing import Drawing, Progress, draw
 from ..drawing.projection import Projection, looking, standard
 from ..drawing.scene import Scene, scene_of
@@ -43,13 +43,7 @@ class Draughts:
 
     def __init__(self, document: Document, tolerance: float = DEFAULT_TOLERANCE, solid: str | None = None) -> None:
         """All visible solids, or the one of this name. Raises Refusal where there is none."""
-        if solid is not None and all(root.name != solid for root in document.solids):
-            names = ", ".join(f"“{root.name}”" for root in document.solids)
-            raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
-        if solid is not None:
-            solids = [root.with_(visible=True) for root in document.solids if root.name == solid]
-        else:
-            solids = [root for root in document.solids if root.visible]
+        solids = [root.with_(visible=True) for root in chosen_solids(document, solid)]
         if not solids:
             why = "no solid is visible" if document.solids else "the document holds no solid"
             raise NothingToDraw(f"there is nothing to draw: {why}")

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from ..document.document import Document
 from ..document.errors import Refusal
+from ..document.tree import chosen_solids
 from ..solid.results import SolidResult, arrays_of, evaluate_document
 from ..solid.tessellation import DEFAULT_TOLERANCE
 from .meshes_out import OutSolid, check_ending, write_meshes
@@ -34,10 +35,7 @@ def solids_to_write(
     document: Document, tolerance: float, solid: str | None, progress: Callable[[str], None] | None = None
 ) -> tuple[tuple[SolidResult, ...], list[OutSolid]]:
     """What was evaluated, and of it what goes into a file. Raises Refusal as `export_document` does."""
-    if solid is not None and all(root.name != solid for root in document.solids):
-        names = ", ".join(f"“{root.name}”" for root in document.solids)
-        raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
-    wanted = [root.id for root in document.solids if (root.visible if solid is None else root.name == solid)]
+    wanted = [root.id for root in chosen_solids(document, solid)]
     results = evaluate_document(document, tolerance, wanted, progress=progress).solids
     for result in results:
         if result.solid is None:

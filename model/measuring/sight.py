@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from ..document.document import Document
 from ..document.errors import Refusal
-from ..document.tree import walk
+from ..document.tree import chosen_solids, walk
 from ..partition.build import build
 from ..partition.faces import faces_of_meshes
 from ..partition.rays import END, Hit, Rays
@@ -106,10 +106,7 @@ class Scenery:
         """`solid` names the one that counts alone. Raises Refusal where it is not there, or one failed."""
         from ..solid.results import evaluate_document
 
-        if solid is not None and all(root.name != solid for root in document.solids):
-            names = ", ".join(f"“{root.name}”" for root in document.solids)
-            raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
-        wanted = [root.id for root in document.solids if (root.visible if solid is None else root.name == solid)]
+        wanted = [root.id for root in chosen_solids(document, solid)]
         if not wanted:
             raise Refusal("no solid is visible" if document.solids else "the document holds no solid")
         evaluation = evaluate_document(document, tolerance, wanted, progress=progress)

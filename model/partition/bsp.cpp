@@ -203,6 +203,7 @@ class Builder {
             arrivals.resize(begin);
             if (!within_.empty()) {
                 const int32_t owned = fragments();
+                if (first[at.node] + int64_t{count[at.node]} > tree.fragments) throw Failure{NO_TREE};
                 for (int32_t i = first[at.node], last = i + count[at.node]; i < last; ++i)
                     emit(tree.corners + tree.starts[i], tree.corners + tree.starts[i + 1], tree.source[i]);
                 for (const Piece& piece : within_) emit(piece);
@@ -269,6 +270,7 @@ class Builder {
     }
 
     void take_fragments(const TreeView& tree, int32_t node) {
+        if (first[node] + int64_t{count[node]} > tree.fragments) throw Failure{NO_TREE};
         for (int32_t i = first[node], last = i + count[node]; i < last; ++i) {
             const int32_t* begin = tree.corners + tree.starts[i];
             const int32_t* end = tree.corners + tree.starts[i + 1];

@@ -183,6 +183,11 @@ class _Levels:
             other = plane_of[first[alive] + (around[alive] + turn) % sizes[node[alive]]]
             low, high = reach.across(self.columns.take(other, axis=1))
             counts = (other != plane_of[alive]) & (self.areas[other] > 0.0)
+            # Two that face each other in one plane are neither: the order of their sources counts.
+            flat = np.flatnonzero(counts & (high <= self.epsilon) & (low >= -self.epsilon))
+            pair = self.faces.planes[other[flat], :3], self.faces.planes[plane_of[alive[flat]], :3]
+            opposed = node[alive[flat[np.einsum("ij,ij->i", *pair) < 0.0]]]
+            behind[opposed] = before[opposed] = False
             behind[node[alive[counts & (high > self.epsilon)]]] = False
             before[node[alive[counts & (low < -self.epsilon)]]] = False
             turn += 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from .polygons import spread
 from .tree import Tree
 
 Floats = NDArray[np.float64]
@@ -77,12 +78,6 @@ class Clusters:
             inside = number[box]
             row, box = np.repeat(row, inside), spread(first[box], inside)
         return row, self._fragments[box]
-
-
-def spread(first: Numbers, count: Numbers) -> Numbers:
-    """The numbers first .. first + count of every row, one row after the other."""
-    total = int(count.sum())
-    return np.repeat(first - np.cumsum(count) + count, count) + np.arange(total)
 
 
 def _boxes(tree: Tree) -> Floats:

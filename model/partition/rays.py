@@ -13,8 +13,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .clusters import Clusters, Floats, Numbers, spread
+from .clusters import Clusters, Floats, Numbers
 from .lines import Borders, Lines, Scene
+from .polygons import spread
 from .tree import INNER, Tree
 
 Vector = tuple[float, float, float]

@@ -10,12 +10,19 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from ..document.errors import Refusal
 from .faces import Faces, Floats
 from .tree import EPSILON, INNER, Tree, empty_tree
 
+MOST_CUTS = 50_000
+"""Some seconds of work; faces that cross at random are cut millions of times."""
+
 
 def build_in_order(faces: Faces, order: Sequence[int] | None = None) -> Tree:
-    """The tree of the faces, put in one after the other in `order` (default: as they come)."""
+    """The tree of the faces, put in one after the other in `order` (default: as they come).
+
+    Raises Refusal where that takes more than MOST_CUTS cuts.
+    """
     if not faces.count:
         return empty_tree(faces)
     epsilon = EPSILON * faces.size
@@ -24,6 +31,7 @@ def build_in_order(faces: Faces, order: Sequence[int] | None = None) -> Tree:
     plane_of: list[int] = []  # the number of each among the faces' planes
     children: list[list[int]] = []  # [back, front]
     owned: list[list[tuple[int, list[int]]]] = []
+    cuts = 0
     for face in range(faces.count) if order is None else order:
         ring = faces.corners[faces.starts[face] : faces.starts[face + 1]].tolist()
         waiting: list[tuple[int, int, list[int]]] = [(0 if planes else -1, -1, ring)]  # node, way to it, polygon
@@ -44,7 +52,14 @@ def build_in_order(faces: Faces, order: Sequence[int] | None = None) -> Tree:
             if plane_of[node] == faces.plane_of[face] or (np.abs(heights) <= epsilon).all():
                 owned[node].append((face, ring))
                 continue
-            for side, piece in enumerate(cut(ring, heights, epsilon, points)):
+            pieces = cut(ring, heights, epsilon, points)
+            cuts += all(len(piece) >= 3 for piece in pieces)
+            if cuts > MOST_CUTS:
+                raise Refusal(
+                    f"the textbook's builder cuts these {faces.count:,} faces more than {MOST_CUTS:,} times; take the "
+                    "good one"
+                )
+            for side, piece in enumerate(pieces):
                 if len(piece) >= 3:
                     waiting.append((children[node][side], side, piece))
                     parents.append(node)

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..document.document import Document, Section
 from ..document.errors import Refusal
+from ..document.tree import chosen_solids
 from ..exchange.outlines_out import NamedOutline, check_outline_ending, write_outlines
 from ..solid.evaluate import Evaluator
 from ..solid.provenance import Path, occurrences, owners_of_runs
@@ -71,10 +72,7 @@ def document_sections(
 
     The normal points to the viewer. Raises Refusal where a solid failed or there is none.
     """
-    if solid is not None and all(root.name != solid for root in document.solids):
-        names = ", ".join(f"“{root.name}”" for root in document.solids)
-        raise Refusal(f"there is no solid called “{solid}”; there is {names or 'none at all'}")
-    wanted = [root.id for root in document.solids if (root.visible if solid is None else root.name == solid)]
+    wanted = [root.id for root in chosen_solids(document, solid)]
     if not wanted:
         raise Refusal("no solid is visible" if document.solids else "the document holds no solid")
     evaluation = evaluate_document(document, tolerance, wanted, progress=progress)

@@ -14,6 +14,7 @@ from pathlib import Path
 from ...model.document.document import Document
 from ...model.document.kind_names import function_name
 from ...model.document.nodes import Instance, Node
+from ...model.document.tree import chosen_solids
 from ...model.editing.echo import number_text
 from .kind_pictures import HEIGHT, RADIUS, SYMBOLS, WIDTH
 from .tidy_tree import TidyTree
@@ -147,12 +148,7 @@ def roots_of(document: Document, solid: str | None = None) -> list[tuple[Node, s
     Raises Refusal.
     """
     if solid is not None:
-        from ...model.document.errors import Refusal
-
-        found = [root for root in document.solids if root.name == solid]
-        if not found:
-            raise Refusal(f"there is no solid called “{solid}”")
-        return [(root, root.label) for root in found]
+        return [(root, root.label) for root in chosen_solids(document, solid)]
     return [
         *((root, root.label) for root in document.solids),
         *((root, f"{root.label} (definition)") for root in document.definitions),

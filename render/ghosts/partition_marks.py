@@ -113,10 +113,11 @@ class PartitionMarks:
         self._outline(self._step_rim, one, colour)
 
     def show_point(self, point: NDArray[np.float64] | None, tints: Tints | None = None) -> None:
-        """Mark a point (3,)."""
+        """Mark a point (3,), unless it is farther away than a picture's numbers reach."""
         self._viewer.needs_render = True
-        self._point.SetVisibility(point is not None)
-        if point is not None and tints is not None:
+        within = point is not None and bool(np.abs(point).max() < np.finfo(np.float32).max)
+        self._point.SetVisibility(within)
+        if point is not None and within and tints is not None:
             data = vtkPolyData()
             data.SetPoints(points_of(point))
             data.SetVerts(cells_of(np.zeros((1, 1), np.int32)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
+from weakref import ref
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +30,7 @@ class DepthAlways:
 
     def __init__(self, renderer: vtkRenderer, actor: vtkActor) -> None:
         self.on = True
+        self._renderer = renderer
         self._mapper: Any = vtkPolyDataMapper()
         self.restorer = vtkActor()
         self.restorer.SetMapper(self._mapper)
@@ -36,16 +38,18 @@ class DepthAlways:
         unlit(self.restorer)
         self.set_bounds(np.zeros((2, 3)))
 
-        def set_test(test: int) -> None:
-            window: Any = renderer.GetRenderWindow()
-            if window is not None:
-                window.GetState().vtkglDepthFunc(test)
-
+        # What observers hold, Python never lets go of: it would be the renderer that holds the mapper.
+        held = ref(self)
         mapper: Any = actor.GetMapper()
-        mapper.AddObserver("EndEvent", lambda *_: set_test(GL_ALWAYS if self.on else GL_LEQUAL))
-        self._mapper.AddObserver("EndEvent", lambda *_: set_test(GL_LEQUAL))
+        mapper.AddObserver("EndEvent", lambda *_: (own := held()) and own._set_test(own.on))
+        self._mapper.AddObserver("EndEvent", lambda *_: (own := held()) and own._set_test(False))
         renderer.AddActor(actor)
         renderer.AddActor(self.restorer)
+
+    def _set_test(self, always: bool) -> None:
+        window: Any = self._renderer.GetRenderWindow()
+        if window is not None:
+            window.GetState().vtkglDepthFunc(GL_ALWAYS if always else GL_LEQUAL)
 
     def set_bounds(self, bounds: NDArray[np.float64]) -> None:
         """The box (2, 3) of what the actor draws."""

@@ -1,0 +1,44 @@
+"""All tables of commands that the window has, in the order in which menus list them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from ...model.editing.commands import DOCUMENT_COMMANDS
+from ...model.editing.tree_commands import TREE_COMMANDS
+from ..tree.edit_commands import EDIT_COMMANDS
+from .arrange import ARRANGE_COMMANDS
+from .drawing import DRAWING_COMMANDS
+from .handles import HANDLE_COMMANDS
+from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
+from .measure import MEASURE_COMMANDS
+from .parameters import PARAMETER_COMMANDS
+from .partition import PARTITION_COMMANDS
+from .sections import SECTION_COMMANDS
+from .sight import SIGHT_COMMANDS
+from .views import FILE_COMMANDS, VIEW_COMMANDS
+
+if TYPE_CHECKING:
+    from ..window import MainWindow
+    from .actions import Actions
+
+
+def add_commands(actions: Actions, window: MainWindow) -> None:
+    """Make the actions of a window. Commands on documents take its session, all others the window."""
+    for table, context in (
+        (FILE_COMMANDS, window),
+        (DRAWING_COMMANDS, window),
+        (PARAMETER_COMMANDS, window),
+        (DOCUMENT_COMMANDS, window.session),
+        (TREE_COMMANDS, window.session),
+        (EDIT_COMMANDS, window),
+        (VIEW_COMMANDS, window),
+        (HIDDEN_SURFACE_COMMANDS, window),
+        (PARTITION_COMMANDS, window),
+        (SECTION_COMMANDS, window),
+        (HANDLE_COMMANDS, window),
+        (MEASURE_COMMANDS, window),
+        (SIGHT_COMMANDS, window),
+        (ARRANGE_COMMANDS, window),
+    ):
+        actions.add(table, context)
