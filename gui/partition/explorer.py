@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, QTimer
 
 from .inks import inks_now
 from .makers import Makers, node_words
-from .model_page import ModelPage
+from .model_page import LEGEND, ModelPage
 from .probe_tool import ProbeTool
 from .tree_source import TreeSource
 
@@ -135,7 +135,7 @@ class Explorer(QObject):
         tree = makers.tree
         marks = self._marks_of(viewer)
         if node < 0:
-            page.node.setText("Choose a node: its plane and both half-spaces are shown in the picture.")
+            page.node.setText(LEGEND)
             marks.show_node(None)
         else:
             page.node.setText(node_words(makers, self.names, node))

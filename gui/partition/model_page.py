@@ -32,6 +32,12 @@ BUILDERS = (
 )
 
 
+LEGEND = (
+    "Choose a node: its plane and both half-spaces are shown in the picture. Circles are planes, squares leaves with "
+    "the number of their fragments, dashed ones folded sub-trees, rings half-spaces with nothing in them."
+)
+
+
 class ModelPage(QWidget):
     """The widgets of the page; what they show and do is the explorer's.
 
