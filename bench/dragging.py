@@ -8,18 +8,15 @@ that the drag ended with, and it does nothing but redraw.
 from __future__ import annotations
 
 import tempfile
-import threading
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QObject, QPointF, QSettings, Qt, QTimer
+from pointer import swing, until
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSettings
 from PySide6.QtGui import QMouseEvent
 
 SECONDS = 4.0
-RATE = 125.0  # moves a second, as a mouse reports them
-NONE, LEFT = Qt.MouseButton.NoButton, Qt.MouseButton.LeftButton
 
 
 class Ear(QObject):
@@ -36,13 +33,6 @@ class Ear(QObject):
             if sent is not None:
                 self.waits.append(time.perf_counter() - sent)
         return False
-
-
-def mouse(kind: QEvent.Type, place: QPointF, button: Qt.MouseButton, held: Qt.MouseButton, stamp: int) -> QMouseEvent:
-    keys = Qt.KeyboardModifier.ControlModifier  # no steps: every move is another value
-    event = QMouseEvent(kind, place, place, button, held, keys)
-    event.setTimestamp(stamp)
-    return event
 
 
 def plate():
@@ -67,14 +57,6 @@ def dragged(application: QCoreApplication) -> tuple[float, float, list[float], t
     window.resize(1280, 820)
     window.show()
     window.start()
-
-    def until(done: Callable[[], bool], seconds: float = 60.0) -> None:
-        end = time.perf_counter() + seconds
-        while not done() and time.perf_counter() < end:
-            loop = QEventLoop()  # which sleeps between events, as the program's own does
-            QTimer.singleShot(50, loop.quit)
-            loop.exec()
-
     viewport = window.viewport
     until(lambda: viewport.viewer is not None and bool(viewport.viewer.scene.meshes) and not window.evaluation.waiting)
     viewer = viewport.viewer
@@ -98,29 +80,7 @@ def dragged(application: QCoreApplication) -> tuple[float, float, list[float], t
     ear = Ear()
     viewport.installEventFilter(ear)
 
-    def send(kind: QEvent.Type, place: np.ndarray, button: Qt.MouseButton, held: Qt.MouseButton, stamp: int) -> None:
-        ear.sent[stamp] = time.perf_counter()
-        QCoreApplication.postEvent(viewport, mouse(kind, QPointF(*place), button, held, stamp))
-
-    stop = threading.Event()
-
-    def hand() -> None:
-        send(QEvent.Type.MouseMove, grip, NONE, NONE, 1)
-        send(QEvent.Type.MouseButtonPress, grip, LEFT, LEFT, 2)
-        begin, number = time.perf_counter(), 3
-        while not stop.wait(1.0 / RATE):
-            turn = 40.0 * np.sin(2.0 * (time.perf_counter() - begin))
-            send(QEvent.Type.MouseMove, grip + turn * along, NONE, LEFT, number)
-            number += 1
-
-    thread = threading.Thread(target=hand)
-    thread.start()
-    start = time.perf_counter()
-    until(lambda: time.perf_counter() > start + SECONDS)
-    stop.set()
-    thread.join()
-    if not window.session.previewing:
-        raise SystemExit("the arrow was not caught: nothing was dragged")
+    start = swing(window, grip, along, SECONDS, ear.sent)
     rates = [
         len([t for t in times if start + 0.5 < t < start + SECONDS]) / (SECONDS - 0.5) for times in (pictures, meshes)
     ]

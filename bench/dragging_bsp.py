@@ -9,14 +9,12 @@ from __future__ import annotations
 
 import sys
 import tempfile
-import threading
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from dragging import LEFT, NONE, RATE, mouse
-from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPointF, QSettings, QTimer
+from pointer import swing, until
+from PySide6.QtCore import QSettings
 
 SECONDS, WARM = 6.0, 2.0  # of a drag, and those at its beginning that do not count: what stays is being sorted
 ROUNDS = 2
@@ -37,14 +35,6 @@ def parts():
         return (block + knob + bar).turned(x=x).turned(y=y).turned(z=z).at(*rng.uniform(-12, 12, 3))
 
     return document_of(*(part() for _ in range(PARTS)))
-
-
-def until(done: Callable[[], bool], seconds: float = 60.0) -> None:
-    end = time.perf_counter() + seconds
-    while not done() and time.perf_counter() < end:
-        loop = QEventLoop()  # which sleeps between events, as the program's own does
-        QTimer.singleShot(50, loop.quit)
-        loop.exec()
 
 
 class Drags:
@@ -90,28 +80,7 @@ class Drags:
         fresh: list[tuple[float, bool]] = []
         seen = viewport.view_changed.connect(lambda: pictures.append(time.perf_counter()))
         shown = window.evaluation.shown.connect(lambda *_: fresh.append((time.perf_counter(), viewer.painting)))
-        stop = threading.Event()
-
-        def send(kind: QEvent.Type, place: np.ndarray, button: object, held: object, stamp: int) -> None:
-            QCoreApplication.postEvent(viewport, mouse(kind, QPointF(*place), button, held, stamp))  # type: ignore[arg-type]
-
-        def hand() -> None:
-            send(QEvent.Type.MouseMove, grip, NONE, NONE, 1)
-            send(QEvent.Type.MouseButtonPress, grip, LEFT, LEFT, 2)
-            begin, number = time.perf_counter(), 3
-            while not stop.wait(1.0 / RATE):
-                turn = 40.0 * np.sin(2.0 * (time.perf_counter() - begin))
-                send(QEvent.Type.MouseMove, grip + turn * along, NONE, LEFT, number)
-                number += 1
-
-        thread = threading.Thread(target=hand)
-        thread.start()
-        start = time.perf_counter()
-        until(lambda: time.perf_counter() > start + SECONDS)
-        stop.set()
-        thread.join()
-        if not window.session.previewing:
-            raise SystemExit("the arrow was not caught: nothing was dragged")
+        start = swing(window, grip, along, SECONDS)
         window.handles.cancel()
         viewport.view_changed.disconnect(seen)
         window.evaluation.shown.disconnect(shown)

@@ -1,41 +1,20 @@
 """The worker behind a lane as it sorts faces: the tree, a newer question, cancelling, and what happens when it dies."""
 
 import os
-import queue
 import signal
 import time
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from lane_listener import Listener
 
 from solidtree.model.partition.faces import faces_of_meshes
 from solidtree.model.partition.order import Sorter
-from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cylinder, document_of, sphere
 from solidtree.model.solid.evaluate import Evaluator
 from solidtree.model.solid.results import display_of, result_of
-from solidtree.model.worker.lane import Lane
 from solidtree.model.worker.messages import Cancelled, Died, Exported, Partitioned, Progress
-
-
-class Listener:
-    """Takes a lane's messages, and waits for one of a kind."""
-
-    def __init__(self):
-        self.messages = queue.Queue()
-        self.seen = []
-        self.lane = Lane(self.messages.put, default_store().folder)
-
-    def wait_for(self, *kinds, request=None):
-        while True:
-            message = self.messages.get(timeout=60)
-            self.seen.append(message)
-            if isinstance(message, kinds) and request in (None, getattr(message, "request", None)):
-                return message
-
-    def partition(self, *meshes):
-        return self.wait_for(Partitioned, request=self.lane.partition(meshes))
 
 
 @pytest.fixture

@@ -1,43 +1,22 @@
 """The worker behind a lane: answers, progress, cancelling, and what happens when it dies."""
 
 import os
-import queue
 import signal
 import time
 from multiprocessing import Pipe
 
 import numpy as np
 import pytest
+from lane_listener import Listener
 
 from solidtree.model.document.document import Document
 from solidtree.model.document.table import to_table
 from solidtree.model.document.tree import change, numbered
 from solidtree.model.operations.operations import OPERATIONS
-from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cylinder, document_of, parameter, sphere, union
-from solidtree.model.worker.lane import Lane
 from solidtree.model.worker.messages import Cancelled, Died, Evaluated, Examined, Exported, Progress, Started
 from solidtree.model.worker.process import WorkerProcess
 from solidtree.model.worker.worker import _Worker
-
-
-class Listener:
-    """Takes a lane's messages, and waits for one of a kind."""
-
-    def __init__(self):
-        self.messages = queue.Queue()
-        self.seen = []
-        self.lane = Lane(self.messages.put, default_store().folder)
-
-    def wait_for(self, *kinds, request=None):
-        while True:
-            message = self.messages.get(timeout=60)
-            self.seen.append(message)
-            if isinstance(message, kinds) and request in (None, getattr(message, "request", None)):
-                return message
-
-    def evaluate(self, document, tolerance=0.05):
-        return self.wait_for(Evaluated, request=self.lane.evaluate(document, tolerance))
 
 
 @pytest.fixture
