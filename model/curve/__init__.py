@@ -1,1 +1,1 @@
-"""Curves as arrays: Bezier, B-spline, paths. NumPy alone; may import nothing of the model but `document.errors`."""
+"""Bezier curves as arrays of control points. NumPy; of the model `document.errors` alone."""

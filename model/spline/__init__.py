@@ -1,0 +1,1 @@
+"""B-splines: knots, degree, fitting, conversion to Bezier curves and back. May import `curve`."""
