@@ -189,7 +189,7 @@ class Files(QObject):
         self._evaluation.jobs.export(self._session.document, path, tolerance, solid, section)
         self.notice.emit(f"Exporting {Path(path).name}")
 
-    def export_drawing(self, path: str | Path, plan: Plan, tolerance: float, solid: str | None = None) -> None:
+    def export_drawing(self, path: str | Path, plan: Plan, tolerance: float | None, solid: str | None = None) -> None:
         """Write a drawing as SVG, PDF or DXF."""
         self._settings.folder = Path(path).parent
         self._session.cancel()

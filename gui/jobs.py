@@ -95,7 +95,7 @@ class Jobs(QObject):
             self.lane.partition(())
             self.rested.emit()
 
-    def draw(self, document: Document, plan: Plan, tolerance: float, solid: str | None = None) -> None:
+    def draw(self, document: Document, plan: Plan, tolerance: float | None, solid: str | None = None) -> None:
         """Draw a page, instead of the one asked for before; `drawn` brings it."""
         self._drawing = self._started().draw(document, plan, tolerance, solid)
 
@@ -105,7 +105,7 @@ class Jobs(QObject):
             self.lane.stop_drawing()
 
     def export_drawing(
-        self, document: Document, plan: Plan, path: str | Path, tolerance: float, solid: str | None = None
+        self, document: Document, plan: Plan, path: str | Path, tolerance: float | None, solid: str | None = None
     ) -> None:
         """Write a page as SVG, PDF or DXF; `exported` tells when that is done."""
         self._exports.add(self._started().draw(document, plan, tolerance, solid, path))

@@ -59,6 +59,22 @@ def test_what_failed_is_told_and_the_rest_is_drawn(solidtree, tmp_path):
     assert status == 1 and "“endless”" in err and (tmp_path / "a.svg").exists()
 
 
+def test_every_command_takes_an_open_surface_as_it_is_and_says_so(solidtree, tmp_path):
+    tent = "OFF\n5 4 0\n0 0 0\n10 0 0\n10 10 0\n0 10 0\n5 5 8\n3 0 1 4\n3 1 2 4\n3 2 3 4\n3 3 0 4\n"
+    (tmp_path / "tent.off").write_text(tent)
+    told = set()
+    for command, *words in (
+        ("draw", tmp_path / "a.svg"),
+        ("render", tmp_path / "a.png"),
+        ("bsp",),
+        ("ray", "--origin=5,4,20", "--direction=0,0,-1"),
+    ):
+        status, _, err = solidtree(command, tmp_path / "tent.off", *words)
+        assert status == 0 and err.count("\n") == 1, command
+        told.add(err)
+    assert len(told) == 1
+
+
 @pytest.mark.parametrize(
     ("words", "reason"),
     [
@@ -70,6 +86,7 @@ def test_what_failed_is_told_and_the_rest_is_drawn(solidtree, tmp_path):
         (["out.svg", "--target", "0,0,0"], "need --eye"),
         (["out.svg", "--eye", "1,2,3", "--view", "top"], "exclude each other"),
         (["out.svg", "--sheet", "first", "--view", "top"], "views of its own"),
+        (["out.svg", "--no-iso"], "--no-iso needs --sheet"),
         (["out.svg", "--sheet", "first", "--perspective", "30"], "parallel projection"),
         (["out.svg", "--eye", "0,0,0", "--target", "0,0,0"], "the same point"),
         (["out.svg", "--solid", "lid"], "there is no solid called “lid”"),

@@ -2,10 +2,12 @@
 
 import itertools
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+from solidtree.model.drawing import edges
 from solidtree.model.drawing.coincident import drawn_once
 from solidtree.model.drawing.drawing import BORDER, FEATURE, INTERSECTION, OUTLINE, Lines, draw, polylines
 from solidtree.model.drawing.edges import drawable_edges
@@ -17,6 +19,7 @@ from solidtree.model.exchange.meshes_in import read_any
 from solidtree.model.script import box, cylinder, document_of, evaluate, intersection, sphere, torus, union
 from solidtree.model.solid.results import evaluate_document
 
+EXAMPLES = Path(__file__).parent.parent / "resources" / "examples"
 ISO = math.sqrt(2 / 3)
 """Millimetres in an isometric picture to one along an axis."""
 
@@ -332,3 +335,19 @@ def test_progress_goes_from_nothing_to_all_and_may_stop_the_drawing():
 
     with pytest.raises(Stopped):
         draw(scene(menger(2)), standard("iso"), progress=stop)
+
+
+def test_outlines_do_not_run_to_and_fro_on_saddles_and_stay_what_they_are_elsewhere(monkeypatch):
+    drill = scene_of(evaluate_document(read_any(EXAMPLES / "drill_bit.solidtree"), 0.01))
+    bored = scene(sphere(10, segments=64), plate=box(40, 40, 20).at(30, 0, 0) - cylinder(8, 30).at(50, 20, -5))
+
+    def outlines(solids):
+        lines = drawn(solids).lines
+        return lines.chosen(lines.kind == OUTLINE)
+
+    after = [outlines(solids) for solids in (drill, bored)]
+    monkeypatch.setattr(edges, "_without_zigzags", lambda surfaces, *_: surfaces.facing[surfaces.faces.plane_of])
+    before = [outlines(solids) for solids in (drill, bored)]
+    assert length(after[0], True) < 0.9 * length(before[0], True)
+    assert length(after[0], False) < length(before[0], False)
+    assert np.array_equal(after[1].ends, before[1].ends)

@@ -91,6 +91,8 @@ def test_the_page_is_turned_to_the_larger_scale():
 def test_what_does_not_fit_is_refused_with_what_would():
     with pytest.raises(Refusal, match=r"at 5:1 the drawing takes 501 × 501 mm.*take 1:1 or the page A1"):
         page_of(box(100), view="front", page="A4-landscape", scale=5.0)
+    with pytest.raises(Refusal, match=r"and A4 portrait has room for 182 × 261 mm; take 1:1 or the page A0"):
+        page_of(box(10, 10, 220), view="front", scale=5.0)  # turned to what the offer is for
     with pytest.raises(Refusal, match="no room"):
         fitted(lambda scale: Arranged((), np.array([[0.0, 0.0], [30.0, 40.0]])), Plan(page="40x40"))
     assert page_of(box(100), view="front", scale=0.25).scale == 0.25

@@ -55,6 +55,32 @@ def test_the_preview_shows_the_window_s_own_view_and_follows_the_choices(dialog)
     assert choose(dialog, dialog.choices.scale, "1:2").scale == 0.5
 
 
+def test_choices_that_are_not_there_lose_their_ticks_say_why_and_get_them_back(dialog):
+    iso, dimensions = dialog.choices.iso, dialog.choices.dimensions
+    assert not iso.isChecked() and "Three views" in iso.toolTip()
+    assert not dimensions.isChecked() and "perspective" in dimensions.toolTip()
+    choose(dialog, dialog.choices.view, "Three views, first angle")
+    assert iso.isEnabled() and iso.isChecked() and dimensions.isEnabled() and dimensions.isChecked()
+    assert "perspective" not in dimensions.toolTip()
+    page = dialog.preview.page
+    iso.click()
+    dialog.driver.qtbot.waitUntil(lambda: dialog.preview.page is not page, timeout=20000)
+    settle(dialog)
+    assert "Iso" not in [group.name for group in dialog.preview.page.groups]
+    choose(dialog, dialog.choices.view, "Top")
+    choose(dialog, dialog.choices.view, "Three views, third angle")
+    assert not iso.isChecked() and dimensions.isChecked()
+
+
+def test_the_tolerance_follows_the_scale_until_one_is_written(dialog):
+    assert dialog.choices.tolerance.currentText() == "Automatic" and dialog.choices.chosen_tolerance() is None
+    dialog.choices.tolerance.setCurrentText("0")
+    dialog.driver.qtbot.waitUntil(lambda: "above 0" in dialog.hint.text(), timeout=20000)
+    dialog.choices.tolerance.setCurrentText("0.2")
+    settle(dialog)
+    assert dialog.choices.chosen_tolerance() == 0.2 and dialog.hint.text() == ""
+
+
 def test_what_does_not_fit_is_said_beside_the_choices_and_cannot_be_saved(dialog):
     dialog.choices.scale.setCurrentText("100:1")
     dialog.driver.qtbot.waitUntil(lambda: "100:1" in dialog.hint.text(), timeout=20000)

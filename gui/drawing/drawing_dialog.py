@@ -35,12 +35,12 @@ PAUSE = 150  # milliseconds of typing before the preview follows
 PATIENCE = 250  # milliseconds before the progress shows
 PANEL = 250  # logical pixels, the width of the choices
 
-Save = Callable[[str, Plan, float, "str | None"], None]
+Save = Callable[[str, Plan, "float | None", "str | None"], None]
 
 
 class DrawingDialog(QDialog):
-    """`save` takes (path, plan, tolerance, solid or None for all). `present` is what the viewport shows: an eye and the
-    angle of its perspective, None in parallel projection."""
+    """`save` takes (path, plan, tolerance, solid or None for all), and None for a tolerance that follows the scale.
+    `present` is what the viewport shows: an eye and the angle of its perspective, None in parallel projection."""
 
     def __init__(
         self,
@@ -58,7 +58,7 @@ class DrawingDialog(QDialog):
         self.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         self._document, self._start = document, folder / f"{name}.svg"
         self._jobs, self._save = jobs, save
-        self._asked: tuple[Plan, float, str | None] | None = None
+        self._asked: tuple[Plan, float | None, str | None] | None = None
         self.choices = Choices(document, name, present, self)
         self.preview = PageView(self)
         self.hint = QLabel(self)

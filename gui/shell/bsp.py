@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 
 from ...model.document.errors import Refusal
 from ...model.document.tree import chosen_solids
-from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, positive
+from ..command_line import NOT_IN_ORDER, TOLERANCE, Bar, positive
+from .messages import told
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 
@@ -42,14 +42,12 @@ def bsp(options: argparse.Namespace) -> int:
         evaluation = evaluate_document(document, options.tolerance, ids, progress=bar)
     finally:
         bar.end()
-    wanted = evaluation.solids
-    for message in (message for result in wanted for message in result.messages):
-        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
-    meshes = [evaluation.display(result) for result in wanted]
+    status = told(options.file, evaluation.messages, document)
+    meshes = [evaluation.display(result) for result in evaluation.solids]
     faces = faces_of_meshes([mesh for mesh in meshes if mesh is not None])
     fault = builder_fault(options.builder, faces.count)
     if fault:
         raise Refusal(fault)
     _, report = built(faces, options.builder)
     print(json.dumps(report.json(), indent=2, allow_nan=False))
-    return DONE if faces.count and all(mesh is not None for mesh in meshes) else NOT_IN_ORDER
+    return status if faces.count and all(mesh is not None for mesh in meshes) else NOT_IN_ORDER

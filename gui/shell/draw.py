@@ -10,7 +10,8 @@ from typing import TypeVar
 from ...model.document.errors import Refusal
 from ...model.drafting.paper import SIZES, papers, scale_from
 from ...model.drafting.plan import Eye, NothingToDraw, Plan
-from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, naming, positive, warn
+from ..command_line import NOT_IN_ORDER, Bar, naming, positive, warn
+from .messages import told
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 from .render import add_view_options
@@ -48,7 +49,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
         help="of the bounding box; default with --sheet, never in perspective",
     )
     command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")
-    command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
+    command.add_argument("--tolerance", type=positive, metavar="MM", help="default: 0.02 on the paper, 0.05 at most")
     add_parameter_options(command)
 
 
@@ -69,10 +70,9 @@ def draw(options: argparse.Namespace) -> int:
         return NOT_IN_ORDER
     finally:
         bar.end()
-    for message in drawn.messages:
-        warn(options.file, f"“{message.name}”: {message.message}")
+    status = told(options.file, drawn.messages, document)
     naming(options.out, lambda: write_page(options.out, drawn.page))
-    return NOT_IN_ORDER if any(message.error for message in drawn.messages) else DONE
+    return status
 
 
 def _plan(options: argparse.Namespace) -> Plan:
@@ -85,6 +85,8 @@ def _plan(options: argparse.Namespace) -> Plan:
         view = Eye(options.eye, options.target, options.up)
     if options.sheet is not None and (options.eye is not None or options.view is not None):
         raise Refusal("--sheet has views of its own: leave --view and --eye out")
+    if options.no_iso and options.sheet is None:
+        raise Refusal("--no-iso needs --sheet")
     return Plan(
         view=view,
         perspective=options.perspective,

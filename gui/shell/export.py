@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, naming, positive, warn
+from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, naming, positive
+from .messages import told
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 
@@ -47,7 +48,6 @@ def export(options: argparse.Namespace) -> int:
     finally:
         bar.end()
     naming(options.out, lambda: write_meshes(out, solids))
-    for message in (message for result in results for message in result.messages):
-        warn(options.file, f"“{message.name}”: {message.message}")
+    status = told(options.file, (message for result in results for message in result.messages), document)
     empty = [result for result in results if result.solid is None or result.solid.is_empty()]
-    return NOT_IN_ORDER if empty else DONE
+    return NOT_IN_ORDER if empty else status

@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 import argparse
-import sys
 
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
-from ..command_line import DONE, REFUSED, read
+from ..command_line import DONE, complain, read, warn
 
 
 def add_options(command: argparse.ArgumentParser) -> None:
@@ -32,7 +31,7 @@ def read_with_values(options: argparse.Namespace) -> Document:
         document = _with_file(document, options.sets, options.file)
     if options.set is not None:
         for name in unknown_in_set(document, find_set(document, options.set)):
-            _say(options.file, f"the set “{options.set}”: {name} is no parameter of the document and is left out")
+            warn(options.file, f"the set “{options.set}”: {name} is no parameter of the document and is left out")
         document = apply_set(document, options.set)
     return with_texts(document, options.parameter)
 
@@ -46,12 +45,8 @@ def _with_file(document: Document, path: str, file: str) -> Document:
     except Refusal as refusal:
         raise Refusal(f"{path}: {refusal}") from None
     if left_out:
-        _say(path, f"{', '.join(left_out)}: no such parameter in {file}; left out")
+        warn(path, f"{', '.join(left_out)}: no such parameter in {file}; left out")
     return put_sets(document, [(one.name, one.values) for one in sets])
-
-
-def _say(file: str, message: str) -> None:
-    print(f"solidtree: {file}: {message}", file=sys.stderr)
 
 
 def add_sets_options(command: argparse.ArgumentParser) -> None:
@@ -70,6 +65,5 @@ def sets(options: argparse.Namespace) -> int:
     try:
         write_sets(options.out, document.sets)
     except Refusal as refusal:
-        _say(options.out, str(refusal))
-        return REFUSED
+        return complain(options.out, str(refusal))
     return DONE

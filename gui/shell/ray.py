@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from typing import TYPE_CHECKING, Any
 
 from ...model.document.errors import Refusal
-from ..command_line import DONE, TOLERANCE, Bar, positive
+from ..command_line import TOLERANCE, Bar, positive
+from .messages import told
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 from .section import vector
@@ -30,7 +30,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def ray(options: argparse.Namespace) -> int:
-    """Tell what was met; a miss is an answer, too."""
+    """Tell what was met, a miss is an answer, too; the status is 1 where a solid failed."""
     from ...model.measuring.sight import Scenery
 
     along, between = (options.origin, options.direction), (options.start, options.end)
@@ -42,15 +42,14 @@ def ray(options: argparse.Namespace) -> int:
         scenery = Scenery(document, options.tolerance, options.solid, bar)
     finally:
         bar.end()
-    for message in scenery.messages:
-        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
+    status = told(options.file, scenery.messages, document)
     if options.origin is not None:
         answer: dict[str, Any] = {"hit": _row(scenery.first_hit(*along))}
     else:
         obstacle = scenery.obstacle(*between)
         answer = {"sees": obstacle is None, "obstacle": _row(obstacle)}
     print(json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False))
-    return DONE
+    return status
 
 
 def _row(hit: NodeHit | None) -> dict[str, Any] | None:

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import argparse
 import re
-import sys
 from typing import TYPE_CHECKING
 
 from ...model.document.colours import hex_colour, rgb
 from ...model.document.document import Section
 from ...model.document.errors import Refusal
 from ...model.operations.sections import MOST_ACTIVE
-from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, positive
+from ..command_line import NOT_IN_ORDER, TOLERANCE, Bar, complain, positive, warn
+from .messages import told
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 
@@ -122,7 +122,7 @@ def _angle(text: str) -> float:
 def render(options: argparse.Namespace) -> int:
     """Evaluate and draw; the status is 1 where something failed or nothing is to be seen."""
     if not options.out.lower().endswith(".png"):
-        raise SystemExit(_refused(options.out, "a picture is written as PNG: let the name end in .png"))
+        raise SystemExit(complain(options.out, "a picture is written as PNG: let the name end in .png"))
     background = options.background
     if background is not None and background != "transparent":
         background = tuple(value / 255 for value in rgb(hex_colour(background)))
@@ -139,8 +139,7 @@ def render(options: argparse.Namespace) -> int:
         evaluation = evaluate_document(document, options.tolerance, progress=bar)
     finally:
         bar.end()
-    for message in evaluation.messages:
-        print(f"solidtree: {options.file}: “{message.name}”: {message.message}", file=sys.stderr)
+    status = told(options.file, (message for result in evaluation.visible for message in result.messages), document)
     shown = [(result, mesh) for result in evaluation.visible if (mesh := evaluation.display(result)) is not None]
     meshes = [mesh for _, mesh in shown]
 
@@ -167,15 +166,15 @@ def render(options: argparse.Namespace) -> int:
     except OSError as error:
         from ...model.project.disk import reason_of
 
-        raise SystemExit(_refused(options.out, reason_of(error))) from None
+        raise SystemExit(complain(options.out, reason_of(error))) from None
     for section in sections:
         if meshes and not any(_leaves(section, mesh) for mesh in meshes):
-            print(f"solidtree: {options.file}: the section at {_numbers(section)} leaves nothing", file=sys.stderr)
+            warn(options.file, f"the section at {_numbers(section)} leaves nothing")
             return NOT_IN_ORDER
     if not any(len(mesh.triangles) for mesh in meshes):
-        print(f"solidtree: {options.file}: there is nothing to be seen", file=sys.stderr)
+        warn(options.file, "there is nothing to be seen")
         return NOT_IN_ORDER
-    return DONE if len(shown) == len(evaluation.visible) else NOT_IN_ORDER
+    return status if len(shown) == len(evaluation.visible) else NOT_IN_ORDER
 
 
 def _leaves(section: Section, mesh: DisplayMesh) -> bool:
@@ -196,13 +195,6 @@ def _paint(root: Node, by_node: bool) -> Paint:
     if by_node:
         return Paint(None, tuple(distinct_colour(occurrence.leaf.id) for occurrence in found))
     return Paint(root.colour, tuple(occurrence.colour for occurrence in found))
-
-
-def _refused(file: str, reason: str) -> int:
-    from ..command_line import REFUSED
-
-    print(f"solidtree: {file}: {reason}", file=sys.stderr)
-    return REFUSED
 
 
 def _camera(options: argparse.Namespace, meshes: list) -> tuple[Camera | str, float | None]:

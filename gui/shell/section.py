@@ -8,7 +8,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from ...model.document.errors import Refusal
-from ..command_line import DONE, NOT_IN_ORDER, TOLERANCE, Bar, naming, positive, warn
+from ..command_line import NOT_IN_ORDER, TOLERANCE, Bar, naming, positive, warn
+from .messages import told
 from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 
@@ -40,7 +41,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 
 def section(options: argparse.Namespace) -> int:
-    """Cut, write and tell; the status is 1 where the plane meets nothing."""
+    """Cut, write and tell; the status is 1 where the plane meets nothing or a solid failed."""
     from ...model.exchange.outlines_out import check_outline_ending, write_outlines
     from ...model.operations.sections import find_section
     from ...model.section.solid_sections import document_sections, facing, named_outlines
@@ -61,8 +62,7 @@ def section(options: argparse.Namespace) -> int:
         found, messages = document_sections(document, point, normal, options.tolerance, options.solid, bar)
     finally:
         bar.end()
-    for message in messages:
-        warn(options.file, f"“{message.name}”: {message.message}")
+    status = told(options.file, messages, document)
     met = [one for one in found if len(one.outline.points)]
     if options.out is not None and met:
         naming(options.out, lambda: write_outlines(options.out, named_outlines(found), options.fill))
@@ -71,7 +71,7 @@ def section(options: argparse.Namespace) -> int:
     figures = [{"name": one.name, **figures_of(one.outline)} for one in found]
     total = {key: sum(row[key] for row in figures) for key in ("area", "perimeter", "contours")}
     print(json.dumps({"solids": figures, "total": total}, indent=2, ensure_ascii=False, allow_nan=False))
-    return DONE if met else NOT_IN_ORDER
+    return status if met else NOT_IN_ORDER
 
 
 def figures_of(outline: SectionOutline) -> dict[str, Any]:

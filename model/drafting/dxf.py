@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, TextIO
 from ..document.colours import rgb
 from ..exchange.outline_dxf import layer_name
 from ..project.disk import one_line
-from .page import Fill, Floats, Group, Page, Pen, Strokes, Text, walk
+from .page import HIDDEN, Fill, Floats, Group, Page, Pen, Strokes, Text, walk
+from .title import AXES
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -21,7 +22,10 @@ if TYPE_CHECKING:
 
     from ..solid.provenance import Path
 
-DASHED, CHAIN = "DASHED", "CHAIN"
+DASHES = {"DASHED": HIDDEN.dash, "CHAIN": AXES.dash}
+"""Line types; what has other dashes has one of them at its own size."""
+ACROSS = 128
+"""The flag of a polyline whose dashes go on across its corners (LWPOLYLINE, group 70)."""
 PARTS = {"edges": "", "hidden edges": " hidden", "faces": " faces"}
 """What is put after a node's name, by the role of its group."""
 
@@ -98,9 +102,9 @@ class _Writer:
     def _line_type(self, pen: Pen) -> str:
         if not pen.dash:
             return "Continuous"
-        name = DASHED if len(pen.dash) == 2 else CHAIN
+        name = _type_of(pen)
         if name not in self._drawing.linetypes:
-            lengths = [length * self._size * (-1.0 if i % 2 else 1.0) for i, length in enumerate(pen.dash)]
+            lengths = [length * self._size * (-1.0 if i % 2 else 1.0) for i, length in enumerate(DASHES[name])]
             self._drawing.linetypes.add(name, [sum(map(abs, lengths)), *lengths], description=name.capitalize())
         return name
 
@@ -111,11 +115,15 @@ class _Writer:
             attributes["lineweight"] = _hundredths(pen)
         if own.linetype != self._line_type(pen):
             attributes["linetype"] = self._line_type(pen)
+        if pen.dash and (size := round(pen.dash[0] / DASHES[_type_of(pen)][0], 4)) != 1.0:
+            attributes["ltscale"] = size
         points = (line * self._size).tolist()
         if len(points) == 2:
             self._space.add_line(*points, dxfattribs=attributes)
             return
         closed = len(points) > 3 and points[0] == points[-1]
+        if pen.dash:
+            attributes["flags"] = ACROSS
         self._space.add_lwpolyline(points[:-1] if closed else points, close=closed, dxfattribs=attributes)
 
     def _fill(self, item: Fill, layer: str) -> None:
@@ -133,6 +141,11 @@ class _Writer:
         )
         place = (item.at[0] * self._size, item.at[1] * self._size)
         text.set_placement(place, align=TextEntityAlignment[aligned])
+
+
+def _type_of(pen: Pen) -> str:
+    """The line type by the number of its dashes and gaps."""
+    return next(name for name, dash in DASHES.items() if len(dash) == len(pen.dash))
 
 
 def _hundredths(pen: Pen) -> int:

@@ -35,7 +35,7 @@ VISIBLE = Pen(0.5)
 HIDDEN = Pen(0.25, INK, (2.0, 0.75))
 THIN = Pen(0.18)
 """Weights after ISO 128-2 (2022): wide lines, narrow dashed ones, dimensions. Gaps are its 3 widths, dashes 8 rather
-than 12, so that what is small on paper still shows some."""
+than 12, so that what is small on paper still shows some; they are fitted to each line, see `dashes`."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -52,7 +52,7 @@ def lay(views: Sequence[View], plan: Plan) -> Page:
     or nothing is to be seen."""
     if all(view.drawing.empty for view in views):
         raise NothingToDraw("there is nothing to draw: nothing is in view")
-    arrangement = _sheet(views, plan) if plan.sheet is not None else _single(views[0], plan)
+    arrangement = _arrangement(views, plan)
     paper, scale = fitted(arrangement, plan)
     arranged = arrangement(scale)
     left, low, width, height = room(paper)
@@ -63,6 +63,18 @@ def lay(views: Sequence[View], plan: Plan) -> Page:
     ]
     title = Title(plan.title, _view_words(plan), _scale_title(plan, scale), plan.sheet)
     return Page(paper.width, paper.height, (frame_group(paper, title), *groups), plan.title, scale)
+
+
+def scale_of(views: Sequence[View], plan: Plan) -> float | None:
+    """The scale of the page with these views, of which only the bounds count; None where nothing is to be seen. Raises
+    Refusal where they do not fit."""
+    if not any(max(view.size) for view in views):
+        return None
+    return fitted(_arrangement(views, plan), plan)[1]
+
+
+def _arrangement(views: Sequence[View], plan: Plan) -> Arrangement:
+    return _sheet(views, plan) if plan.sheet is not None else _single(views[0], plan)
 
 
 def fitted(arrangement: Arrangement, plan: Plan) -> tuple[Paper, float]:
@@ -94,18 +106,19 @@ def _fits(arrangement: Arrangement, paper: Paper, scale: float) -> bool:
 
 def _too_large(arrangement: Arrangement, choices: Sequence[Paper], scale: float) -> str:
     wanted = np.ptp(arrangement(scale).box, axis=0)
-    paper = choices[0]
+    offers = [(found, one) for one in choices if (found := largest_scale(arrangement, one)) is not None]
+    best = max((found for found, _ in offers), default=None)
+    paper = next((one for found, one in offers if found == best), choices[0])  # the one that the offer is for
     _, _, width, height = room(paper)
     words = (
         f"at {scale_words(scale)} the drawing takes {_mm(wanted[0])} × {_mm(wanted[1])} mm, and {paper.words} has room "
         f"for {width:.0f} × {height:.0f} mm"
     )
-    scales = [found for one in choices if (found := largest_scale(arrangement, one)) is not None]
     larger = next((name for name in SIZES if name.startswith("A") and any(
         _fits(arrangement, one, scale) for one in papers(name))), None)  # fmt: skip
     advice = []
-    if scales:
-        advice.append(f"take {scale_words(max(scales))}")
+    if best is not None:
+        advice.append(f"take {scale_words(best)}")
     if larger is not None:
         advice.append(f"the page {larger}" if advice else f"take the page {larger}")
     return words + ("; " + " or ".join(advice) if advice else "")

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..document.colours import rgb
 from ..drawing.drawing import Drawing
 from ..drawing.lines import polylines
+from .dashes import dashed
 from .page import HIDDEN, VISIBLE, Fill, Group, Item, Strokes, Text
 
 Floats = NDArray[np.float64]
@@ -72,7 +73,10 @@ class View:
         for line in polylines(alike):
             pieces = cornered(line.points) if hidden else [line.points]
             of_layer.setdefault(line.layer, []).extend(piece * scale + shift for piece in pieces)
-        return [self._layer(role, number, [Strokes(what, pen, tuple(of_layer[number]))]) for number in sorted(of_layer)]
+        return [
+            self._layer(role, number, dashed(what, pen, lines) if hidden else [Strokes(what, pen, tuple(lines))])
+            for number, lines in sorted(of_layer.items(), key=lambda item: item[0])
+        ]
 
     def _layer(self, role: str, number: int, items: Sequence[Item]) -> Group:
         layer = self.drawing.layers[number]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..solid.provenance import Path
-from .lines import BORDER, FEATURE, INTERSECTION, KINDS, OUTLINE, Lines, Polyline, polylines
+from .lines import BORDER, FEATURE, INTERSECTION, KINDS, NO_LINES, OUTLINE, Lines, Polyline, polylines
 from .projection import Projection
 
 if TYPE_CHECKING:
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from .surfaces import Surfaces
 
 __all__ = ["BORDER", "FEATURE", "INTERSECTION", "KINDS", "OUTLINE", "Area", "Drawing", "Layer", "Lines",
-           "Polyline", "Progress", "draw", "polylines"]  # fmt: skip
+           "Polyline", "Progress", "draw", "measured", "polylines"]  # fmt: skip
 
 Floats = NDArray[np.float64]
 LIGHTS = (((-0.45, 0.45, 1.0), 0.65), ((0.9, 0.0, 0.5), 0.22), ((-0.1, -1.0, 0.35), 0.16))
@@ -106,6 +106,16 @@ def draw(
     bounds = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 2))
     told("done", 1.0)
     return Drawing(lines, areas, scene.layers, bounds, scene.extent, projection)
+
+
+def measured(scene: Scene, projection: Projection) -> Drawing:
+    """A drawing with the bounds that `draw` would give it, and nothing on it: that takes no hidden lines."""
+    from .edges import drawable_edges
+    from .surfaces import surfaces_of
+
+    points = drawable_edges(scene, surfaces_of(scene, projection)).ends[..., :2].reshape(-1, 2)
+    bounds = np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 2))
+    return Drawing(NO_LINES, (), scene.layers, bounds, scene.extent, projection)
 
 
 def _areas(surfaces: Surfaces, seen: list[tuple[int, list[Floats]]]) -> tuple[Area, ...]:

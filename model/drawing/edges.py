@@ -44,7 +44,8 @@ def drawable_edges(scene: Scene, surfaces: Surfaces) -> Edges:
 
     An edge lies between a face that the eye sees from before and one that it does not (outline), or between two
     leaves that meet out of plane or two solids that meet anyhow (intersection), or two facets at an angle (feature),
-    or is the border of a surface that is not closed. Joints of faceted smooth surfaces are none.
+    or is the border of a surface that is not closed. Joints of faceted smooth surfaces are none. Surfaces that are not
+    closed have no edge where they cross others.
     """
     joints = _joints(scene, surfaces)
     faces = surfaces.faces
@@ -53,9 +54,11 @@ def drawable_edges(scene: Scene, surfaces: Surfaces) -> Edges:
     sign = np.where(joints.turned, -1, 1)
     cosine = sign * np.einsum("ij,ij->i", faces.planes[plane_one, :3], faces.planes[plane_other, :3])
     alone = joints.sides[:, 1] < 0
-    outline = (surfaces.facing[plane_one] != sign * surfaces.facing[plane_other]) & ~alone
     foreign = (surfaces.solid[one] != surfaces.solid[other]) & ~alone
     between = ((surfaces.owner[one] != surfaces.owner[other]) & (cosine < SEAM)) | foreign
+    smooth = ~(alone | between | joints.several | joints.turned) & (cosine >= SHARP)
+    facing = _without_zigzags(surfaces, joints, smooth)
+    outline = (facing[one] != sign * facing[other]) & ~alone
     kind = np.full(len(one), -1, np.int8)
     kind[(cosine < SHARP) | joints.several] = FEATURE
     kind[between] = INTERSECTION
@@ -66,6 +69,32 @@ def drawable_edges(scene: Scene, surfaces: Surfaces) -> Edges:
     ends, kept = _seen(surfaces, faces.points[joints.ends[drawn]])
     planes = np.column_stack((plane_one, np.where(alone, -1, plane_other)))[drawn[kept]]
     return Edges(ends, kind[drawn[kept]], surfaces.layer[chosen[kept]], planes.astype(np.int64))
+
+
+def _without_zigzags(surfaces: Surfaces, joints: Joints, smooth: NDArray[np.bool_]) -> NDArray[np.int8]:
+    """(t,) the facing of triangles, as outlines go by it.
+
+    The facets of a saddle that the eye sees nearly from the side face it and away by turns, though the true surface has
+    one simple contour there (Hertzmann and Zorin 2000, section 4.1): the outline then runs to and fro, seen over convex
+    joints and hidden in the concave ones between them. A facet with both counts as one that faces away, so that its
+    third side is the outline. Convex surfaces and bores have none.
+    """
+    faces = surfaces.faces
+    facing = surfaces.facing[faces.plane_of].astype(np.int8)
+    one, other = joints.sides[smooth].T
+    middles = faces.points[faces.corners.reshape(-1, 3)[other]].mean(axis=1)
+    planes = faces.planes[faces.plane_of[one]]
+    concave = np.einsum("ij,ij->i", planes[:, :3], middles) > planes[:, 3]
+    count = len(facing)
+    bent = np.bincount(joints.sides[joints.sides >= 0], minlength=count) == 3  # from all of its neighbours
+    while True:
+        outline = facing[one] != facing[other]
+        hollow = np.bincount(np.concatenate((one, other))[np.tile(outline & concave, 2)], minlength=count)
+        round_ = np.bincount(np.concatenate((one, other))[np.tile(outline & ~concave, 2)], minlength=count)
+        turned = bent & (facing > 0) & (hollow > 0) & (round_ > 0)
+        if not turned.any():
+            return facing
+        facing[turned] = -1
 
 
 def _named_side(surfaces: Surfaces, one: Numbers, other: Numbers) -> Numbers:

@@ -46,6 +46,11 @@ class Scene:
         boxes = [mesh.bounds for mesh in self.meshes if len(mesh.corners)]
         return np.array([np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]]) if boxes else np.zeros((2, 3))
 
+    @property
+    def triangles(self) -> int:
+        """How many there are in all meshes."""
+        return sum(len(mesh.corners) for mesh in self.meshes)
+
     def faces(self) -> Faces:
         """The triangles of all meshes, one mesh after the other, with their planes."""
         return self._kept["tree"].faces if "tree" in self._kept else faces_of_meshes(self.meshes)
@@ -60,8 +65,9 @@ class Scene:
 def scene_of(evaluation: Evaluation, progress: Callable[[str], None] | None = None) -> Scene:
     """The visible solids of an evaluated document.
 
-    Solids that meet are joined exactly, so that they have edges where they cross; what failed shows what is left of
-    it, as on the screen. Imported surfaces that are not closed are taken as they are.
+    Solids that meet are joined exactly, so that they have edges where they cross: an eye inside one of them does not
+    see the walls of the others there. What failed shows what is left of it, as on the screen. Imported surfaces that
+    are not closed are taken as they are.
     """
     layers: list[Layer] = []
     numbers: dict[tuple[str, ...], int] = {}

@@ -51,14 +51,15 @@ def draw(
     hidden: str = "dashed",
     faces: str = "none",
     dimensions: bool | None = None,
-    tolerance: float = 0.05,
+    tolerance: float | None = None,
     **named: Node,
 ):
     """Write a drawing, faces and lines that are hidden removed, as .svg, .pdf or .dxf; a keyword is a solid's name.
 
     `view` is iso, front, back, left, right, top or bottom, or `eye` a point to look from; `perspective` an angle in
     degrees. `sheet="first"` or "third" draws front, top and side view and one from a corner, with the dimensions of the
-    bounding box. `hidden` lines are "dashed" or "omit", `faces` "fill" or "none". The result is the page, see
+    bounding box. `hidden` lines are "dashed" or "omit", `faces` "fill" or "none". Without a `tolerance` in mm round
+    things are so fine that no corners show on paper. The result is the page, see
     solidtree.model.drafting.page.Page. Raises Refusal.
 
     >>> draw("plate.pdf", box(80, 50, 5), sheet="first").scale  # doctest: +SKIP

@@ -15,7 +15,10 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class Job:
-    """One request: `word` names the worker's method; the other fields are those that it takes."""
+    """One request: `word` names the worker's method; the other fields are those that it takes.
+
+    A tolerance of 0 is none.
+    """
 
     number: int
     word: str
@@ -44,7 +47,7 @@ def request_of(job: Job, pictures: set[bytes], surfaces: set[bytes]) -> tuple[An
     if job.word == "prepare":
         return "prepare", job.number, table, job.tolerances, job.solid
     if job.word == "draw":
-        return "draw", job.number, table, job.tolerance, job.solid, job.plan, job.path
+        return "draw", job.number, table, job.tolerance or None, job.solid, job.plan, job.path
     return "export", job.number, table, job.path, job.tolerance, job.solid, job.section
 
 

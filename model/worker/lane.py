@@ -102,15 +102,16 @@ class Lane:
         self,
         document: Document,
         plan: Plan,
-        tolerance: float = DEFAULT_TOLERANCE,
+        tolerance: float | None = None,
         solid: str | None = None,
         path: Path | str = "",
     ) -> int:
         """Ask for the page that is drawn of a document; the answer is a Drawn. A newer question takes its place.
 
+        Without a tolerance it follows the scale.
         With a path the page is written there, whatever is asked for meanwhile; the answer is an Exported.
         """
-        return self._ask("draw", document, tolerance, path=str(path), solid=solid, plan=plan)
+        return self._ask("draw", document, tolerance or 0.0, path=str(path), solid=solid, plan=plan)
 
     def stop_drawing(self) -> None:
         """Give up the page that is being drawn, or waits; no answer comes."""

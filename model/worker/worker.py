@@ -159,7 +159,7 @@ class _Worker:
         return "partitioned", number, tree, time.perf_counter() - start
 
     def _draw(
-        self, number: int, table: dict[str, Any], tolerance: float, solid: str | None, plan: Plan, path: str
+        self, number: int, table: dict[str, Any], tolerance: float | None, solid: str | None, plan: Plan, path: str
     ) -> tuple[Any, ...]:
         """The page of a plan, or where it was written; what the last plan had of this document is kept."""
         from ..drafting.drawing_file import write_page
