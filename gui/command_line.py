@@ -143,7 +143,11 @@ def read(file: str) -> Document:
     """The document in a file of any kind that can be read. Raises Refusal."""
     from ..model.exchange.meshes_in import read_any
 
-    return read_any(Path(file))
+    document = read_any(Path(file))
+    if Path(file).suffix.lower() != ".solidtree":
+        for note in document.notes.splitlines():
+            warn(file, note)
+    return document
 
 
 class Bar:
@@ -186,7 +190,7 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
     for name, module, options, run, what in (
         ("info", "info", "add_options", "info", "measurements as one JSON object on standard output"),
         ("export", "export", "add_options", "export",
-         "write a mesh file: stl, 3mf, obj, ply, off or glb by OUT's ending"),
+         "write a mesh file (stl, 3mf, obj, ply, off, glb) or outlines (svg, dxf), by OUT's ending"),
         ("convert", "export", "add_convert_options", "export", "turn one file into another format"),
         ("render", "render", "add_options", "render", "a picture as PNG"),
         ("draw", "draw", "add_options", "draw", "a drawing with hidden faces and lines removed, as SVG, PDF or DXF"),

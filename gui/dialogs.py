@@ -27,7 +27,7 @@ from PySide6.QtWidgets import (
 from ..model.document.errors import Refusal
 from ..model.document.expression import Expression, number
 
-READABLE = "*.solidtree *.stl *.3mf *.obj *.ply *.off *.glb *.gltf"
+READABLE = "*.solidtree *.stl *.3mf *.obj *.ply *.off *.glb *.gltf *.svg *.dxf"
 FORMATS = (
     ("3mf", "3MF: printing, with names and colours"),
     ("stl", "STL: printing, triangles alone"),
@@ -35,8 +35,10 @@ FORMATS = (
     ("ply", "PLY: with colours"),
     ("off", "OFF: points and faces"),
     ("glb", "GLB: web and renderers, with names and colours"),
+    ("svg", "SVG: outlines with their curves"),
+    ("dxf", "DXF: outlines with their curves, a layer for each"),
 )
-TOLERANCE = 0.05
+OF_OUTLINES = ("svg", "dxf")
 
 
 def _box(parent: QWidget, icon: QMessageBox.Icon, text: str, detail: str) -> QMessageBox:
@@ -149,10 +151,16 @@ def ask_drawing_path(parent: QWidget, start: Path, then: Callable[[str], None]) 
 
 
 class ExportDialog(QDialog):
-    """File, format, tolerance and which solid. `then` takes (path, tolerance, solid or None for all)."""
+    """File, format, tolerance and which solid or outline. `then` takes (path, tolerance, name or None for all)."""
 
     def __init__(
-        self, parent: QWidget, start: Path, solids: list[str], then: Callable[[str, float, str | None], None]
+        self,
+        parent: QWidget,
+        start: Path,
+        solids: list[str],
+        outlines: list[str],
+        tolerance: float,
+        then: Callable[[str, float, str | None], None],
     ) -> None:
         super().__init__(parent)
         self.setWindowTitle("Export")
@@ -161,16 +169,18 @@ class ExportDialog(QDialog):
         self.format = QComboBox(self)
         for ending, words in FORMATS:
             self.format.addItem(words, ending)
-        self.path = QLineEdit(str(start.with_name(start.name + ".3mf")), self)
+        flat = not solids and bool(outlines)
+        self.format.setCurrentIndex(self.format.findData("svg" if flat else "3mf"))
+        self.path = QLineEdit(str(start.with_name(start.name + "." + self.format.currentData())), self)
         self.path.setMinimumWidth(340)
         browse = QPushButton("Browse …", self)
         browse.clicked.connect(self._browse)
+        self._names = {"Solids": solids, "Outlines": outlines}
+        self._what = QLabel(self)
         self.solid = QComboBox(self)
-        self.solid.addItem("All visible solids" if len(solids) != 1 else solids[0], None)
-        if len(solids) > 1:
-            for name in solids:
-                self.solid.addItem(name, name)
-        self.tolerance = QLineEdit(f"{TOLERANCE:g}", self)
+        self._what.setBuddy(self.solid)
+        self._list_names()
+        self.tolerance = QLineEdit(f"{tolerance:g}", self)
         self.tolerance.setToolTip("The largest distance between the true surface and its facets, in millimetres")
         self.fault = QLabel(self)
         self.fault.setProperty("fault", True)
@@ -189,7 +199,7 @@ class ExportDialog(QDialog):
         form.setLabelAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
         form.addRow("Format", self.format)
         form.addRow("File", file_line)
-        form.addRow("Solids", self.solid)
+        form.addRow(self._what, self.solid)
         form.addRow("Tolerance", tolerance_line)
         form.addRow("", self.fault)
         self.buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Cancel, self)
@@ -234,7 +244,20 @@ class ExportDialog(QDialog):
         self.path.setText(path)
         self._follow_path(path)
 
+    def _list_names(self) -> None:
+        """What can be written in the chosen format."""
+        what = "Outlines" if self.format.currentData() in OF_OUTLINES else "Solids"
+        if what == self._what.text():
+            return
+        self._what.setText(what)
+        names = self._names[what]
+        self.solid.clear()
+        self.solid.addItem(names[0] if len(names) == 1 else f"All visible {what.lower()}", None)
+        for name in names if len(names) > 1 else ():
+            self.solid.addItem(name, name)
+
     def _follow_format(self) -> None:
+        self._list_names()
         path = Path(self.path.text())
         if path.name:
             self.path.setText(str(path.with_suffix("." + self.format.currentData())))
@@ -245,6 +268,7 @@ class ExportDialog(QDialog):
             self.format.blockSignals(True)
             self.format.setCurrentIndex(place)
             self.format.blockSignals(False)
+            self._list_names()
 
 
 def report_fault(parent: QWidget | None, report: str) -> None:

@@ -11,6 +11,7 @@ from ..model.document.document import Document
 from ..model.document.tree import walk
 from ..model.editing.session import Session, State
 from .jobs import Jobs
+from .settings import TOLERANCE
 
 if TYPE_CHECKING:
     from ..model.worker.lane import Lane
@@ -32,9 +33,9 @@ def new_lane(on_message: Callable[[LaneMessage], None]) -> Lane:
 
 
 def same_shape(a: Document, b: Document) -> bool:
-    """Whether two documents are the same solids, looks and names apart."""
+    """Whether two documents are the same solids and outlines, looks and names apart."""
     same = a.definitions == b.definitions and a.parameters == b.parameters
-    return same and [(root.id, root.digest) for root in a.solids] == [(root.id, root.digest) for root in b.solids]
+    return same and [(r.id, r.digest) for r in a.standing] == [(r.id, r.digest) for r in b.standing]
 
 
 class Evaluation(QObject):
@@ -67,6 +68,8 @@ class Evaluation(QObject):
         jobs.notice.connect(self.notice)
         jobs.progress.connect(lambda *told: self.progress.emit(*told) if self._request is None else None)
         self._closed = False
+        self.tolerance = TOLERANCE
+        """Of the picture, in mm."""
         self._asked: tuple[Document, float] | None = None
         self._request: int | None = None
         self._drag: int | None = None
@@ -180,11 +183,16 @@ class Evaluation(QObject):
             tolerance = self._tolerance()
             self.lane.prepare(self._session.document, selection[0], (tolerance, PREVIEW * tolerance))
 
-    def _tolerance(self) -> float:
-        from ..model.solid.tessellation import DEFAULT_TOLERANCE
+    def set_tolerance(self, tolerance: float) -> None:
+        """How fine the picture is to be, in mm."""
+        if tolerance != self.tolerance:
+            self.tolerance = tolerance
+            if self.lane is not None:
+                self.ask()
 
+    def _tolerance(self) -> float:
         coarse = self._session.previewing and not self._quick
-        return PREVIEW * DEFAULT_TOLERANCE if coarse else DEFAULT_TOLERANCE
+        return PREVIEW * self.tolerance if coarse else self.tolerance
 
     def _ask(self) -> None:
         if self.lane is None:

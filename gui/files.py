@@ -150,7 +150,7 @@ class Files(QObject):
         dialogs.ask_open_path(self._window, self._settings.folder, "Import", self.import_file)
 
     def import_file(self, path: str | Path) -> None:
-        """Add the solids of a mesh file, or of another project, to the open document."""
+        """Add the solids of a mesh file, the outlines of a drawing, or another project, to the open document."""
         path = Path(path)
 
         def work() -> Document:
@@ -166,15 +166,26 @@ class Files(QObject):
                 return
             self._session.commit(f"Import {path.name}", document, line=f"insert_document(open_document({str(path)!r}))")
             self._remember(path)
+            notes = other.notes.splitlines() if path.suffix.lower() != PROJECT else []
+            if notes:
+                dialogs.tell(self._window, f"{path.name} is imported, but not all of it", "\n".join(notes))
 
         self.background.run(
             f"Reading {path.name}", work, done, lambda refusal: self._refused("imported", path, refusal)
         )
 
     def ask_export(self) -> None:
-        names = [root.name for root in self._session.document.solids if root.visible]
+        solids, outlines = (
+            [root.name for root in roots if root.visible]
+            for roots in (self._session.document.solids, self._session.document.profiles)
+        )
         start = Path(self._settings.folder, self.name)
-        dialogs.ExportDialog(self._window, start, names, self.export).open()
+        tolerance = self._settings.tolerance("export")
+        dialogs.ExportDialog(self._window, start, solids, outlines, tolerance, self._export_with).open()
+
+    def _export_with(self, path: str, tolerance: float, name: str | None) -> None:
+        self._settings.set_tolerance("export", tolerance)
+        self.export(path, tolerance, name)
 
     def export(
         self,

@@ -8,7 +8,8 @@ from pathlib import Path
 from PySide6.QtCore import QByteArray, QSettings
 
 RECENT = 10
-LAYOUT_VERSION = 3
+LAYOUT_VERSION = 4
+TOLERANCE = 0.05  # mm, where the user has chosen no other
 
 
 class Settings:
@@ -88,6 +89,18 @@ class Settings:
     def keep_layout(self, geometry: QByteArray, state: QByteArray) -> None:
         self._store.setValue("window/geometry", geometry)
         self._store.setValue("window/state", state)
+
+    def tolerance(self, purpose: str) -> float:
+        """Millimetres between curved things and their facets; `purpose` is "display" or "export"."""
+        value = self._store.value(f"tolerance/{purpose}", TOLERANCE)
+        try:
+            found = float(value)  # type: ignore[arg-type]
+        except (TypeError, ValueError):
+            return TOLERANCE
+        return found if 0.0 < found < float("inf") else TOLERANCE
+
+    def set_tolerance(self, purpose: str, value: float) -> None:
+        self._store.setValue(f"tolerance/{purpose}", value)
 
     def flag(self, name: str, default: bool) -> bool:
         """A switch of the view that outlives the window, such as the grid."""

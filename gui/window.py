@@ -13,8 +13,22 @@ from PySide6.QtWidgets import QApplication, QMainWindow
 from ..model.editing.session import Session, State
 from .commands.actions import Actions
 from .commands.menus import fill_menus
+from .commands.nodes import NODE_BUTTONS
 from .commands.tables import add_commands
 from .commands.views import TOOL_BAR
+from .curves.active import ActiveCurve
+from .curves.comb import CombView
+from .curves.construction import ConstructionView
+from .curves.construction_page import ConstructionPage
+from .curves.drawing.draw_bar import DrawBar
+from .curves.drawing.draw_tool import DrawTool
+from .curves.drawing.face_plane_tool import FacePlaneTool
+from .curves.drawing.work_plane import WorkPlane
+from .curves.editing.edit_tool import EditTool
+from .curves.joints_page import JointsPage
+from .curves.nodes_page import NodesPage
+from .curves.panel import CurvePanel
+from .curves.spline_page import SplinePage
 from .docks import arrange, give_sizes, switch_layout
 from .evaluation import Evaluation
 from .files import Files
@@ -69,8 +83,10 @@ class MainWindow(QMainWindow):
         assert isinstance(application, QApplication)
         self.theme = theme or Theme(application, self.settings, self)
         self.evaluation = Evaluation(self.session, self)
+        self.evaluation.set_tolerance(self.settings.tolerance("display"))
         self.looks = Looks(self)
         self._closing = False
+        self.curve = ActiveCurve(self.session, self)
 
         self.viewport = Viewport(self.session, self)
         self.setCentralWidget(self.viewport)
@@ -84,12 +100,23 @@ class MainWindow(QMainWindow):
         self.viewport.add_tool(self.section_tool)
         self.handles = Handles(self.viewport, self.session, self.settings, lambda: self.looks.ghosts)
         self.viewport.add_tool(self.handles)
+        self.edit_tool = EditTool(self.session, self.viewport, self.curve, self.handles, self.settings)
+        self.viewport.add_tool(self.edit_tool)
         self.place_on_face = PlaceOnFace(self.session, self.viewport, lambda i: self.evaluation.parts.get(i), self)
         self.viewport.add_tool(self.place_on_face)
         self.measure = MeasureTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.measure)
         self.sight = SightTool(self.session, self.viewport, self.hidden_surfaces, self)
         self.viewport.add_tool(self.sight)
+        self.work_plane = WorkPlane(self.session, self.viewport, self)
+        self.draw = DrawTool(self.session, self.viewport, self.work_plane, lambda: self.handles.snapping, self)
+        self.viewport.add_tool(self.draw)
+        self.face_plane = FacePlaneTool(self.viewport, self.work_plane, self)
+        self.viewport.add_tool(self.face_plane)
+        self.comb = CombView(self.curve, self.viewport, self.settings)
+        self.viewport.add_tool(self.comb)
+        self.construction = ConstructionView(self.curve, self.viewport)
+        self.viewport.add_tool(self.construction)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()
@@ -102,6 +129,7 @@ class MainWindow(QMainWindow):
         self.docks_menu_entries.append(tools.toggleViewAction())
         self.viewport.add_tool(self.space_bar)
         self.welcome = Welcome(self.actions_, self.viewport)
+        self.draw_bar = DrawBar(self.draw, self.actions_, self.viewport)
         self.isolation = IsolationCard(self.session, self.actions_, self.viewport)
         self.setAcceptDrops(True)
         self._unlisten = self.session.on_change(self._changed)
@@ -143,10 +171,26 @@ class MainWindow(QMainWindow):
         self.sections = Sections(self.session, self.section_tool, self.actions_, self.section_tool.figures, self)
         self.script = ScriptLog(self.session, self)
         self.bsp = BspPanel(self)
+        self.joints_page = JointsPage(self.curve, self.comb, self)
+        nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
+        construction_page = ConstructionPage(self.curve, self.construction, self)
+        self.spline_page = SplinePage(self.curve, self)
+        pages = {
+            "Nodes": nodes_page,
+            "Joints": self.joints_page,
+            "Construction": construction_page,
+            "B-spline": self.spline_page,
+        }
+        self.curve_panel = CurvePanel(self.curve, pages, self)
         self.docks = arrange(
             self,
             left={"Model": self.model_panel, "Diagram": self.diagram},
-            right={"Properties": self.properties, "Parameters": self.parameters, "BSP": self.bsp},
+            right={
+                "Properties": self.properties,
+                "Curve": self.curve_panel,
+                "Parameters": self.parameters,
+                "BSP": self.bsp,
+            },
             bottom={
                 "Problems": self.problems,
                 "Sections": self.sections,
@@ -160,6 +204,7 @@ class MainWindow(QMainWindow):
     def _changed(self, before: State, after: State) -> None:
         after = self.session.state  # an earlier listener may have gone on
         for part in (
+            self.curve,
             self.tree,
             self.model_panel,
             self.diagram,
@@ -185,10 +230,9 @@ class MainWindow(QMainWindow):
         self.actions_.refresh()
 
     def shown(self, shown: Shown, seconds: float) -> None:
-        if shown.solids or not any(problem.error and not problem.node_id for problem in shown.problems):
-            self.viewport.show_meshes(
-                {root: solid.mesh for root, solid in shown.solids.items() if solid.mesh is not None}
-            )
+        meshes = shown.solids | shown.outlines
+        if meshes or not any(problem.error and not problem.node_id for problem in shown.problems):
+            self.viewport.show_meshes({root: one.mesh for root, one in meshes.items() if one.mesh is not None})
         self.tree.nodes.set_problems(shown.problems)
         self.problems.set_problems(shown.problems)
         self.status.set_problem(next((problem.sentence for problem in shown.problems if problem.error), ""))

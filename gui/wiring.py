@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from .commands.parameters import ask_export, ask_import
+from .curves.editing.node_menu import open_node_menu
 from .view.pointer_menu import open_pointer_menu
 
 if TYPE_CHECKING:
@@ -16,6 +17,8 @@ def connect(window: MainWindow) -> None:
     _words(window)
     _evaluation(window)
     _measuring(window)
+    _drawing(window)
+    _editing(window)
     window.parameters.sets.import_asked.connect(lambda: ask_import(window))
     window.parameters.sets.export_asked.connect(lambda: ask_export(window))
     window.files.path_changed.connect(window.follow_title)
@@ -28,6 +31,10 @@ def connect(window: MainWindow) -> None:
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
+    window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
+    window.docks["Curve"].visibilityChanged.connect(window.actions_.refresh)
+    window.curve_panel.seen.connect(window.joints_page.set_seen)
+    window.construction.switched.connect(window.actions_.refresh)
     window.theme.changed.connect(lambda name: window.viewport.change(lambda viewer: viewer.set_theme(name)))
     window.theme.changed.connect(window.retint)
     window.welcome.open_asked.connect(window.files.open)
@@ -47,6 +54,7 @@ def _words(window: MainWindow) -> None:
         window.handles,
         window.place_on_face,
         window.bsp,
+        window.curve,
     ):
         part.refused.connect(status.say)
     for said in (
@@ -102,3 +110,29 @@ def _measuring(window: MainWindow) -> None:
     panel.start_asked.connect(lambda: window.actions_.run("measure"))
     window.files.opened.connect(tool.clear)
     window.files.opened.connect(tool.end)
+
+
+def _editing(window: MainWindow) -> None:
+    """The nodes of the outline that is edited, and what can be done to them."""
+    tool = window.edit_tool
+    tool.said.connect(window.status.set_hint)
+    tool.menu_asked.connect(lambda place: open_node_menu(window.actions_, window.curve, window.viewport, place))
+    tool.box_changed.connect(window.actions_.refresh)
+    window.spline_page.told.connect(window.status.say)
+    window.curve.changed.connect(lambda: None if window.session.previewing else window.actions_.refresh())
+
+
+def _drawing(window: MainWindow) -> None:
+    """One tool has the clicks; the handles give way to it."""
+    draw, face = window.draw, window.face_plane
+    for tool in (draw, face):
+        tool.said.connect(window.status.set_hint)
+        tool.began.connect(lambda: window.handles.set_hidden(True))
+        tool.ended.connect(lambda: window.handles.set_hidden(False))
+        tool.ended.connect(window.actions_.refresh)
+        window.measure.began.connect(tool.end)
+        window.sight.began.connect(tool.end)
+        window.files.opened.connect(tool.end)
+    draw.refused.connect(window.status.say)
+    face.taken.connect(lambda: draw.start(face.resumed) if face.resumed else None)
+    window.work_plane.changed.connect(window.actions_.refresh)

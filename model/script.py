@@ -11,14 +11,17 @@ from __future__ import annotations
 from .document.document import Document
 from .document.errors import Refusal
 from .scripting import documents, hidden_surfaces, joining, shapes, sight
+from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
 from .scripting.hidden_surfaces import *  # noqa: F403
 from .scripting.joining import *  # noqa: F403
+from .scripting.outlines import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
 
 __all__ = ["Document", "Refusal"]
 __all__ += shapes.__all__
+__all__ += flat.__all__
 __all__ += joining.__all__
 __all__ += documents.__all__
 __all__ += hidden_surfaces.__all__

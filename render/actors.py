@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 Path = tuple[str | int, ...]
 
+SHEET = 0.22  # opacity of what an outline fills
 SELECTED, HOVERED = 0.42, 0.28  # how much of the highlight's colour is mixed into a face
 
 
@@ -69,11 +70,15 @@ class SolidActors:
     def set_style(self, style: str, shading: str, look: Look, opacity: float, line_width: float) -> None:
         dress_faces(self.faces, style, shading, look, opacity)
         self.faces.GetProperty().SetLineWidth(max(1.0, 0.5 * line_width))
-        self.edges.SetVisibility(style != "shaded")
-        self.silhouette.SetVisibility(style in ("wireframe", "hidden-line"))
+        if self.mesh.sheet:
+            unlit(self.faces)
+            self.faces.GetProperty().SetRepresentationToSurface()
+            self.faces.GetProperty().SetOpacity(SHEET if style in ("shaded", "edges") else 0.0)
+        self.edges.SetVisibility(style != "shaded" or self.mesh.sheet)
+        self.silhouette.SetVisibility(style in ("wireframe", "hidden-line") and not self.mesh.sheet)
         # VTK offsets lines by 4 units, enough to shine through thin walls; in wireframe they lie over all triangles.
         nearer = 2000.0 if style == "wireframe" else -3.0
-        line = look.edge if style == "edges" else look.line
+        line = look.edge if style == "edges" and not self.mesh.sheet else look.line
         for lines, colour, width in (
             (self.edges, line, line_width),
             (self.silhouette, line, line_width),
@@ -111,6 +116,8 @@ class SolidActors:
 
     def turn_silhouette(self, camera: "Camera") -> None:
         """Find the silhouette anew; costs about as much as drawing the lines."""
+        if self.mesh.sheet:
+            return
         eye = np.asarray(camera.position)
         towards = eye - camera.target if camera.parallel else eye
         self._silhouette.SetLines(cells_of(self.adjacency.silhouette(towards, camera.parallel)))

@@ -72,7 +72,8 @@ def picture(
         scene.show({str(number): solid for number, solid in enumerate(solids)})
         scene.set_hidden_surface(hidden_surface)
         if hidden_surface == "bsp":
-            scene.show_tree(_tree([mesh for mesh, _ in solids]), tuple(scene.meshes))
+            meshes = scene.solid_meshes
+            scene.show_tree(_tree(list(meshes.values())), tuple(meshes))
         bounds = scene.visible_bounds()
         camera = _camera(view, bounds, size, perspective)
         height = None

@@ -69,7 +69,9 @@ class Scene:
             self.sections.clip(entry.actors)
             self._style(entry)
             self._paint(entry)
-        self.sections.set_solids({key: (entry.mesh, entry.colours) for key, entry in self._solids.items()})
+        self.sections.set_solids(
+            {key: (entry.mesh, entry.colours) for key, entry in self._solids.items() if not entry.mesh.sheet}
+        )
 
     def set_sections(self, sections: Iterable["Section"], dragged: bool = False) -> None:
         """Open the picture by those of the sections that are active; `dragged` while they are on their way."""
@@ -100,7 +102,7 @@ class Scene:
         """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown."""
         if self.hidden_surface != "bsp" or self._tree is None:
             return False
-        shown = {key: entry.mesh for key, entry in self._solids.items() if len(entry.mesh.triangles)}
+        shown = {key: mesh for key, mesh in self.solid_meshes.items() if len(mesh.triangles)}
         ordered = {key: mesh for key, mesh in self._tree_meshes.items() if len(mesh.triangles)}
         return shown.keys() == ordered.keys() and all(shown[key] is ordered[key] for key in shown)
 
@@ -112,6 +114,11 @@ class Scene:
     @property
     def meshes(self) -> dict[str, "DisplayMesh"]:
         return {solid_id: entry.mesh for solid_id, entry in self._solids.items()}
+
+    @property
+    def solid_meshes(self) -> dict[str, "DisplayMesh"]:
+        """Those of solids, without the sheets of outlines."""
+        return {solid_id: entry.mesh for solid_id, entry in self._solids.items() if not entry.mesh.sheet}
 
     def surface(self, solid_id: str) -> vtkPolyData:
         """The triangles of a shown solid; raises KeyError. For reading: pickers share it."""
@@ -202,7 +209,7 @@ class Scene:
         painting = self.painting
         by_painter = painting and self.style != "wireframe"
         for entry in self._solids.values():
-            entry.faces.SetVisibility(not by_painter)
+            entry.faces.SetVisibility(not by_painter or entry.mesh.sheet)
         self.renderer.SetUseDepthPeeling(self.peeling)
         if not by_painter:
             self.painter.hide()

@@ -9,6 +9,7 @@ from vtkmodules.vtkRenderingCore import vtkRenderer
 
 from . import camera as camera_value
 from .camera import Camera, fit, ray, with_projection
+from .curves.line_pick import LinePicker
 from .ghosts.ghosts import Ghost, Ghosts
 from .ground import Ground
 from .handles.overlay import Overlay
@@ -53,6 +54,7 @@ class Viewer:
         self.needs_render = True
         self.changed_camera: Callable[[Camera], None] | None = None
         self._picker = Picker()
+        self._line_picker = LinePicker()
         self._software: bool | None = None
         self._moving = False
         self._peeling = False
@@ -224,7 +226,19 @@ class Viewer:
         sections = self.scene.sections
         found = self._picker.pick(self.scene.meshes, origin, direction, *sections.span(origin, direction))
         cut = sections.pick(origin, direction)
-        return cut if found is None or (cut is not None and cut.distance < found.distance) else found
+        found = cut if found is None or (cut is not None and cut.distance < found.distance) else found
+        return self._line(found, x, y, origin, direction) or found
+
+    def _line(
+        self, found: Pick | None, x: float, y: float, origin: NDArray[np.float64], direction: NDArray[np.float64]
+    ) -> Pick | None:
+        """The curve of an outline under pixel (x, y), unless a solid's face lies before it."""
+        line = self._line_picker.pick(self.scene.meshes, self.camera, self.size, x, y)
+        if line is None or found is None or self.scene.meshes[found.solid_id].sheet:
+            return line
+        depth = float((np.asarray(line.point) - origin) @ direction)
+        room = 1e-3 * self.camera.half_height
+        return line if depth <= found.distance + room else None
 
     def pick_all(self, x: float, y: float) -> list[Pick]:
         """All that lies under pixel (x, y), front to back, faces turned away from the eye included."""

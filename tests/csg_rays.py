@@ -10,6 +10,7 @@ from itertools import pairwise
 import numpy as np
 from manifold3d import CrossSection, Manifold, Mesh64
 
+from solidtree.model.document.from_outlines import Extrude
 from solidtree.model.document.nodes import (
     Difference,
     Hull,
@@ -20,7 +21,8 @@ from solidtree.model.document.nodes import (
     Node,
     PolarArray,
 )  # fmt: skip
-from solidtree.model.document.primitives import Box, Cone, Cylinder, Extrude, Polyhedron, Rectangle, Sphere
+from solidtree.model.document.outlines import Rectangle
+from solidtree.model.document.primitives import Box, Cone, Cylinder, Polyhedron, Sphere
 
 PAIRS = 1 << 21  # of rays and triangles at a time
 

@@ -5,9 +5,11 @@ import math
 import re
 from dataclasses import dataclass, field
 
+from solidtree.model.document.from_outlines import Extrude
 from solidtree.model.document.nodes import Difference, Hull, Intersection, Minkowski, Node, Union
+from solidtree.model.document.outlines import Circle, Polygon, Rectangle
 from solidtree.model.document.placement import Affine, Placement
-from solidtree.model.document.primitives import Box, Circle, Cone, Extrude, Polygon, Polyhedron, Rectangle
+from solidtree.model.document.primitives import Box, Cone, Polyhedron
 
 _TOKEN = re.compile(r"\s*(?:([%#]?[A-Za-z_]\w*)\s*\(|([{};]))")
 

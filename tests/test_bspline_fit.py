@@ -61,6 +61,14 @@ def test_cubics_are_those_of_scipy(seed):
         assert np.abs(bspline.evaluated(made, SAMPLES) - wanted).max() <= 1e-13 * max(np.abs(wanted).max(), 10.0)
 
 
+@pytest.mark.parametrize("count", [2, 3, 4, 6])
+def test_as_many_points_as_control_points_of_a_bezier_curve_make_one(count):
+    points = walk(count, count)
+    spline = interpolated(points, count - 1, "free")
+    assert len(spline.points) == count
+    assert bspline.evaluated(spline, spaced(points)) == pytest.approx(points, abs=1e-12)
+
+
 @pytest.mark.parametrize("degree", [1, 2, 3, 4, 5])
 def test_free_ends_are_those_of_scipy_on_the_same_knots(degree):
     points = walk(3, 20)

@@ -6,6 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from test_bspline import circle, inside, random_spline, splines
 
+from solidtree.model.curve.bezier import evaluated
+from solidtree.model.curve.degree import elevated
 from solidtree.model.document.errors import Refusal
 from solidtree.model.spline import bspline, decomposition, knots, spline_degree
 from solidtree.model.spline.bspline import BSpline
@@ -240,6 +242,40 @@ def test_closed_curves_are_smooth_at_the_seam():
     assert off(third, knots.inserted(third, 0.2)) <= EXACT
 
 
+@pytest.mark.parametrize("degree", [1, 2, 3, 5])
+@pytest.mark.parametrize("rational", [False, True])
+def test_a_closed_curve_of_pieces_is_closed_as_smooth_as_they_are(degree, rational):
+    rng = np.random.default_rng(degree)
+    steps = rng.uniform(0.2, 1.0, 6)
+    steps[2:4] = 0.0 if degree > 2 else steps[2:4]
+    spline = knots.closed(rng.random((6, 2)), degree, steps, rng.uniform(0.5, 2.0, 6) if rational else None)
+    pieces = decomposition.decomposed(spline)
+    again = decomposition.ring(pieces.controls, pieces.weights, pieces.breaks)
+    assert again.periodic and len(again.points) == len(spline.points)
+    assert np.sort(np.diff(knots.breaks(again)[0])) == pytest.approx(np.sort(np.diff(pieces.breaks)), abs=1e-12)
+    t = np.linspace(0.0, 1.0, 101)
+    assert decomposition.nearest(again, bspline.evaluated(spline, t))[1].max() <= EXACT
+    raised = decomposition.ring(elevated(pieces.lifted, 1), None, pieces.breaks) if not rational else again
+    assert decomposition.nearest(raised, bspline.evaluated(spline, t))[1].max() <= EXACT
+    if not rational:
+        lower, deviation = spline_degree.reduced(raised)
+        assert lower.periodic and lower.degree == degree and deviation <= 1e-9
+
+
+def test_pieces_with_corners_and_an_open_rational_curve_are_closed_exactly():
+    corners = np.array([[[0, 0], [4, 0]], [[4, 0], [4, 3]], [[4, 3], [0, 0]]], float)
+    triangle = decomposition.ring(corners)
+    assert triangle.degree == 1 and len(np.unique(triangle.points, axis=0)) == 3
+    bow = np.array([[0, 0], [1, 4], [5, 4], [6, 0]], float)
+    weights = np.array([[1.0, 2.0, 0.5, 3.0], [1.0, 1.0, 1.0, 1.0]])
+    ring = decomposition.ring(np.stack((bow, elevated(bow[[3, 0]], 2))), weights)
+    t = np.linspace(0.0, 1.0, 101)
+    assert decomposition.nearest(ring, evaluated(bow, t, weights[0]))[1].max() <= EXACT
+    assert ring.periodic and max(ring.points[:, 1]) == 4.0
+    with pytest.raises(Refusal, match="not closed"):
+        decomposition.ring(bow[None])
+
+
 def test_even_knots():
     assert knots.clamped_knots(5, 2).tolist() == pytest.approx([0, 0, 0, 1 / 3, 2 / 3, 1, 1, 1])
     spline = BSpline(np.zeros((5, 2)), 2, knots.open_knots(5, 2))
@@ -260,7 +296,9 @@ def test_knots_that_cannot_be_are_refused_in_words():
         (lambda: knots.split(spline, start), "is cut between"),
         (lambda: knots.extracted(spline, end, end), "has no length"),
         (lambda: knots.on_domain(spline, 1.0, 1.0), "rise"),
-        (lambda: knots.closed([[0, 0], [1, 1], [2, 0]], 2, [1, 0, 1]), "interval of knots above 0"),
+        (lambda: knots.closed([[0, 0], [1, 1], [2, 0]], 2, [1, -1, 1]), "interval of knots, not below 0"),
+        (lambda: knots.closed([[0, 0], [1, 1], [2, 0]], 2, [0, 1, 1]), "one knot at its seam"),
+        (lambda: knots.closed([[0, 0], [1, 1], [2, 0], [3, 1]], 1, [1, 0, 1, 1]), "break in two"),
     ]:
         with pytest.raises(Refusal, match=words):
             call()

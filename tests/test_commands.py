@@ -6,7 +6,8 @@ from solidtree.model.document.errors import Refusal
 from solidtree.model.document.tree import find
 from solidtree.model.editing.commands import DOCUMENT_COMMANDS
 from solidtree.model.editing.session import Session
-from solidtree.model.script import box, document_of, evaluate, extrude, linear_array, rectangle, sphere, union
+from solidtree.model.script import box, circle, document_of, evaluate, extrude, linear_array, rectangle, sphere, union
+from solidtree.model.solid.information import information
 
 COMMANDS = {command.name: command for command in DOCUMENT_COMMANDS}
 DOCUMENT = document_of(
@@ -36,12 +37,39 @@ def test_names_and_shortcuts_are_single():
 
 
 @pytest.mark.parametrize("name", [name for name in COMMANDS if name.startswith("add_")])
-def test_what_is_added_is_a_solid_that_can_be_seen(name):
+def test_what_is_added_is_there_and_has_a_size(name):
     session = used(name, document=document_of())
-    (root,) = session.document.solids
+    (root,) = session.document.standing
     assert session.selection == (root.id,) and session.undo_label.startswith("Add ")
-    if name != "add_halfspace":
+    if root in session.document.profiles:
+        assert information(session.document, 0.05)[0]["profiles"][0]["area"] > 0
+    elif name != "add_halfspace":
         assert evaluate(session.document).solids[0].measures().volume > 0
+
+
+@pytest.mark.parametrize("name", ["extrude", "revolve", "pipe"])
+def test_solids_are_made_of_the_selected_outlines(name):
+    document = document_of(box(1), rectangle(4, 5).named("a"), circle(3).named("b"))
+    session = used(name, "n2", "n3", document=document)
+    assert [root.kind.lower() for root in session.document.solids] == ["box", name, name]
+    assert session.document.profiles == ()
+    assert session.selection == tuple(root.id for root in session.document.solids[1:])
+    assert "no outline" in fault(name, "n1", "n7") and "select an outline" in fault(name)
+
+
+def test_what_a_sweep_and_a_loft_want_selected():
+    assert "select two" in fault("sweep", "n7") and "select two" in fault("loft", "n7")
+    assert "no outline" in fault("sweep", "n1", "n7")
+
+
+def test_what_is_added_stands_beside_its_like():
+    document = document_of(union(box(1), sphere(2)), union(circle(1), circle(2).at(5)))
+    flat = document.profiles[0]
+    for selected in (flat.id, flat.children[1].id):
+        assert len(used("add_circle", selected, document=document).document.profiles[0].children) == 3
+        assert len(used("add_box", selected, document=document).document.solids) == 2
+    assert len(used("add_circle", "n1", document=document).document.profiles) == 2
+    assert len(used("add_box", "n1", document=document).document.solids[0].children) == 3
 
 
 def test_a_half_space_goes_only_where_it_cuts_something():

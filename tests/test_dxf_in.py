@@ -132,11 +132,11 @@ def test_kinds_of_curves_are_kept(drawing):
     _, space, read = drawing
     space.add_line((0, 0), (10, 0))
     space.add_arc((10, 5), 5, -90, 90)
-    points = [(10, 10, 0), (7, 12, 0), (3, 8, 0), (0, 10, 0)]
+    points = [(10, 10, 0), (7, 12, 0), (5, 9, 0), (3, 8, 0), (0, 10, 0)]
     space.add_open_spline(points)
-    space.add_line((0, 0), (0, 10))
+    space.add_open_spline([(0, 10, 0), (-2, 7, 0), (-2, 3, 0), (0, 0, 0)])  # one Bezier curve
     (shape,) = read(tolerance=None).shapes
-    assert [word for word, *_ in shape.commands] == ["move", "line", "cubic", "cubic", "spline", "close"]
+    assert [word for word, *_ in shape.commands] == ["move", "line", "cubic", "cubic", "spline", "cubic", "close"]
     spline = next(given[0] for word, *given in shape.commands if word == "spline")
     assert isinstance(spline, BSpline)
     assert spline.degree == 3 and spline.points.tolist() == [list(point[:2]) for point in points]

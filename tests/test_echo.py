@@ -8,8 +8,9 @@ from solidtree.model.document.document import Document
 from solidtree.model.document.expression import Expression
 from solidtree.model.document.kind_names import function_name
 from solidtree.model.document.nodes import KINDS, Union
+from solidtree.model.document.outlines import Rectangle
 from solidtree.model.document.placement import Affine, Move, Placement, Reflect, Scale, Turn
-from solidtree.model.document.primitives import Polyhedron, Rectangle
+from solidtree.model.document.primitives import Polyhedron
 from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered
 from solidtree.model.editing.echo import call, script_of

@@ -5,21 +5,10 @@ import math
 import pytest
 
 from solidtree.model.document.document import Document
+from solidtree.model.document.from_outlines import Extrude, Revolve
 from solidtree.model.document.nodes import Broken, Instance, LinearArray, PolarArray, Union
-from solidtree.model.document.primitives import (
-    Box,
-    Circle,
-    Cone,
-    Cylinder,
-    Extrude,
-    Halfspace,
-    Polygon,
-    Polyhedron,
-    Rectangle,
-    Revolve,
-    Sphere,
-    Torus,
-)  # fmt: skip
+from solidtree.model.document.outlines import Circle, Polygon, Rectangle
+from solidtree.model.document.primitives import Box, Cone, Cylinder, Halfspace, Polyhedron, Sphere, Torus
 from solidtree.model.script import (
     box,
     cylinder,

@@ -11,9 +11,11 @@ import pytest
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.expression import Expression
+from solidtree.model.document.from_outlines import Extrude
 from solidtree.model.document.nodes import KINDS, Difference, Instance, Node, Union, field_specs, fresh_id, range_fault
+from solidtree.model.document.outlines import Rectangle
 from solidtree.model.document.placement import Move, Placement
-from solidtree.model.document.primitives import Box, Cylinder, Extrude, Polyhedron, Rectangle, Sphere
+from solidtree.model.document.primitives import Box, Cylinder, Polyhedron, Sphere
 from solidtree.model.script import box, cylinder, difference, halfspace, intersection, linear_array, sphere, union
 
 OUTLINE = Rectangle()

@@ -7,8 +7,8 @@ import pytest
 from manifold3d import CrossSection, FillRule, JoinType
 
 from solidtree.model.document.errors import Refusal
+from solidtree.model.path.areas.offsetting import offset, outline
 from solidtree.model.path.flatten import flatten
-from solidtree.model.path.offsetting import offset, outline
 from solidtree.model.path.path import Kind, Path
 from solidtree.model.path.shapes import ellipse, rectangle, star
 

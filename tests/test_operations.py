@@ -5,9 +5,10 @@ import pytest
 
 from solidtree.model.document.document import Document, Parameter, ParameterSet, Section
 from solidtree.model.document.errors import Refusal
+from solidtree.model.document.from_outlines import Extrude, Revolve
 from solidtree.model.document.nodes import Broken, Difference, Instance, LinearArray, Mirror, PolarArray, Union
 from solidtree.model.document.placement import Move, Scale, product
-from solidtree.model.document.primitives import Box, Extrude, Revolve
+from solidtree.model.document.primitives import Box
 from solidtree.model.document.resolve import resolve
 from solidtree.model.document.table import from_table, to_table
 from solidtree.model.document.tree import find, trail, walk
@@ -35,7 +36,7 @@ from solidtree.model.script import (
 def do(document, name, *arguments, **keywords):
     """An operation, whose result is checked for being a document that can be written and read."""
     after = OPERATIONS[name](document, *arguments, **keywords)
-    names = [root.name for root in after.solids]
+    names = [root.name for root in after.standing]
     assert len(set(names)) == len(names) and all(names)
     table = to_table(after)  # refuses doubled ids
     assert to_table(from_table(table)) == table
@@ -99,10 +100,14 @@ def test_an_operand_is_inserted_at_its_place():
         (box(1), "n2", "holds no operands"),
         (box(1), "n5", "takes only 1 operand"),
         (circle(1), "n7", "takes only 1 operand"),
-        (circle(1), None, "extrude or revolve it"),
-        (circle(1), "n1", "extrude or revolve it"),
-        (union(circle(1)), None, "extrude or revolve it"),
+        (circle(1), "n1", "is an outline, which is flat"),
+        (union(circle(1)), "n1", "is an outline, which is flat"),
+        (union(box(1), circle(1)), None, "is an outline, which is flat"),
+        (union(circle(1), box(1)), None, "takes outlines, and “Box” is none"),
+        (union(union(), circle(1)), None, "is an outline, which is flat"),
+        (hull(circle(1)), None, "is an outline, which is flat"),
         (extrude(box(1)), None, "takes an outline"),
+        (extrude(union()), None, "takes an outline"),
         (instance("n1"), None, "no definition n1"),
         (union(instance("gone")), None, "no definition gone"),
         (Broken(), None, "resolved trees only"),
@@ -148,7 +153,7 @@ def test_a_node_is_replaced_where_another_cannot_stand_beside_it():
     assert find(after, "n7").children[0] == circle(4)
     assert do(DOCUMENT, "replace", "n4", sphere(1)).solids[1].name == "lid"
     refused(DOCUMENT, "takes an outline", "replace", "n8", box(1))
-    refused(DOCUMENT, "extrude or revolve it", "replace", "n2", circle(1))
+    refused(DOCUMENT, "is an outline, which is flat", "replace", "n2", circle(1))
 
 
 # What is taken out.
@@ -268,7 +273,8 @@ def test_nodes_from_elsewhere_keep_their_place_in_space_when_combined():
         ("extrude", ["n1"], "does not join solids"),
         ("nonsense", ["n1"], "no operation called"),
         ("union", [], "select what"),
-        ("union", ["n8"], "outline"),
+        ("hull", ["n8"], "outline"),
+        ("union", ["n1", "n8"], "some of these are solids"),
         ("union", ["n1", "n6"], "cannot be without"),
         ("union", ["n99"], "no node n99"),
     ],
@@ -301,7 +307,6 @@ def test_the_operand_of_a_mirror_stays_where_it_was_seen(keep):
 
 def test_what_cannot_be_dissolved():
     refused(DOCUMENT, "no operands to set free", "dissolve", "n2")
-    refused(DOCUMENT, "extrude or revolve it", "dissolve", "n7")
     document = document_of(mirror(union(box(1), box(2))))
     refused(document, "takes only 1 operand", "dissolve", "n2")
     assert len(do(document, "dissolve", "n1").solids) == 1
@@ -353,7 +358,8 @@ def test_siblings_change_their_order():
         (["n4"], "n5", None, "takes only 1 operand"),
         (["n4"], "n2", None, "holds no operands"),
         (["n4"], "n7", None, "takes an outline"),
-        (["n8"], None, None, "extrude or revolve it"),
+        (["n8"], None, None, "cannot be without"),
+        (["n8"], "n1", None, "is an outline, which is flat"),
         (["n6"], None, None, "cannot be without"),
         (["n4"], "n1", 3, "places go from 0 to 2"),
         (["n4"], None, -1, "places go from 0 to 4"),
@@ -422,7 +428,6 @@ def test_an_instance_inside_an_array_is_linked_and_unlinked():
 
 
 def test_what_cannot_be_linked():
-    refused(DOCUMENT, "outline", "link", "n8")
     refused(LINKED, "an instance already", "link", "n9")
     refused(LINKED, "a definition already", "link", "n4")
     refused(DOCUMENT, "not an instance", "unlink", "n1")

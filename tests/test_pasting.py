@@ -76,7 +76,8 @@ def test_definitions_are_shared_within_a_document_and_come_along_into_others():
 
 def test_what_cannot_be_pasted():
     outline = clip(document_of(extrude(circle(1))), ["n2"])
-    for arguments, words in (((outline,), "extrude or revolve it"), ((clip(DOCUMENT, ["n5"]), "n2"), "no operands")):
+    tube = clip(DOCUMENT, ["n5"])
+    for arguments, words in (((outline, "n1"), "is an outline, which is flat"), ((tube, "n2"), "no operands")):
         with pytest.raises(Refusal, match=words):
             OPERATIONS["paste"](DOCUMENT, *arguments)
     lost = clip(Document(solids=(instance("gone").named("x").with_(id="n1"),)), ["n1"])

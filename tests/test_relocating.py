@@ -68,7 +68,7 @@ def test_a_copy_of_a_definition_is_an_instance_of_it():
     [
         (["n5"], "n2", None, "holds no operands"),
         (["n5"], "n6", None, "takes only 1 operand"),
-        (["n9"], None, None, "extrude or revolve it"),
+        (["n9"], "n1", None, "is an outline, which is flat"),
         (["n5"], "n8", None, "takes an outline"),
         (["n5"], "n1", 9, "places go from 0 to 3"),
     ],
@@ -117,7 +117,7 @@ def test_two_nodes_change_places_and_stay_in_space():
     siblings = do(DOCUMENT, "swap", "n2", "n4")
     assert ids(find(siblings, "n1").children) == ["n4", "n3", "n2"] and find(siblings, "n2") is find(DOCUMENT, "n2")
     refused(DOCUMENT, "neither may stand in the other", "swap", "n1", "n3")
-    refused(DOCUMENT, "takes an outline", "swap", "n9", "n5")
+    refused(DOCUMENT, "an outline and a solid", "swap", "n9", "n5")
 
 
 def test_several_are_dissolved_inner_ones_first():

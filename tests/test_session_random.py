@@ -9,8 +9,9 @@ from replay import replayed
 
 from solidtree.model import script
 from solidtree.model.document.errors import Refusal
+from solidtree.model.document.from_outlines import FROM_OUTLINES
 from solidtree.model.document.nodes import Instance, field_specs
-from solidtree.model.document.primitives import OUTLINES, Extrude, Revolve
+from solidtree.model.document.outlines import OUTLINES, is_outline
 from solidtree.model.document.resolve import resolve
 from solidtree.model.document.table import from_table, same_document, to_table
 from solidtree.model.document.tree import find, walk
@@ -21,6 +22,7 @@ from solidtree.model.operations.pasting import clip
 from solidtree.model.operations.sizing import field_of, size_handles, sized
 from solidtree.model.script import box, document_of, parameter, sphere, union
 from solidtree.model.solid.evaluate import Evaluator
+from solidtree.model.solid.profiles import profile_of
 
 DRAWN, SEEDS = 1500, 4  # of which a good third is refused: more than two thousand edits in all
 
@@ -29,9 +31,57 @@ def random_leaf(draw):
     names = ["width", "depth", "gone", "width +", "1 / 0", "nan"]
     number = draw.choice([1, 2.5, -3, 0, draw.choice(names), parameter("fresh", 7)])
     kinds = [lambda: box(number), lambda: sphere(number), lambda: script.rectangle(number), script.halfspace,
-             lambda: script.extrude(script.circle(number)),
+             lambda: script.extrude(script.circle(number)), lambda: script.circle(number),
+             lambda: script.path([("move", (0, number)), ("line", (9, 0)), ("cubic", (9, 5), (5, 9), (0, 9))]),
+             lambda: script.bezier([(0, 0), (0, number), (5, 5)], closed=draw.random() < 0.5),
+             lambda: script.bspline([(0, 0), (9, number), (9, 9), (0, 9)], closed=draw.random() < 0.7),
+             lambda: script.sweep(script.circle(number), script.path([("move", (0, 0, 0)), ("line", (0, 1, 9))])),
+             lambda: script.loft(script.rectangle(), script.circle(number).at(0, 0, 9)),
+             lambda: script.pipe(script.bezier([(0, 0), (9, 9), (20, 0)]), number),
              lambda: script.instance(f"n{draw.randrange(40)}")]  # fmt: skip
     return draw.choice(kinds)()
+
+
+def random_curve(draw):
+    return draw.choice([
+        script.path("M 0 0 H 9 C 12 3 12 6 9 9 Q 4 12 0 9 Z M 2 2 H 4 V 4 Z"),
+        script.path("M 0 0 C 3 5 6 5 9 0 S 15 -5 18 0"),
+        script.path([("move", (0, 0)), ("line", ("width", 2)), ("line", (5, "width + 4"))]),
+        script.bspline([(0, 0), (5, 9), (12, 1), (20, 4), (30, 0)], closed=draw.choice([True, False])),
+        script.bezier([(0, 0), (5, 9), (12, 1)]), script.circle(4), script.polygon([(0, 0), (9, 0), (4, 8)]),
+    ])  # fmt: skip
+
+
+def random_curve_step(draw, document):
+    """An operation on an outline, with places that it may have."""
+    outlines = [node for node in walk(*document.roots) if isinstance(node, OUTLINES)]
+    if not outlines or draw.random() < 0.2:
+        return "insert", random_curve(draw)
+    node = draw.choice(outlines).id
+    place = lambda: (draw.choice([0, 0, 0, 1]), draw.randrange(6))  # noqa: E731
+    some = lambda: [place() for _ in range(draw.randrange(1, 4))]  # noqa: E731
+    rows = draw.sample(range(6), draw.randrange(1, 4))
+    by = draw.choice([(1, 2), (0, -3.5), (0, 0), (1, 2, 3), ("width", 1), None])
+    share = draw.choice([0.25, 0.5, 0.7, 0, 2, "x"])
+    axis, count = draw.choice("xyz"), draw.choice([1, 2, 0, 40])
+    return draw.choice([
+        ("convert_to_path", [node]), ("convert_to_bspline", node), ("move_nodes", node, some(), by),
+        ("place_nodes", node, [place()], [by]), ("move_handle", node, place(), by),
+        ("set_handle", node, place(), draw.choice([None, 2, -1]), draw.choice([None, 30])),
+        ("set_joints", node, some(), draw.choice(["cusp", "smooth", "symmetric", "auto", "odd"])),
+        ("insert_node", node, *place(), share), ("delete_nodes", node, some(), draw.choice([True, False])),
+        ("transform_nodes", node, some(), [(0, -1, 3), (1, 0, 0)]), ("align_nodes", node, some(), axis, "max"),
+        ("distribute_nodes", node, some(), axis), ("mirror_outline", node, axis), ("smooth_joints", node, some()),
+        ("harmonise_joints", node, [place()]), ("match_curvature", node, [place()]), ("break_path", node, some()),
+        ("join_nodes", node, place(), place(), draw.choice([True, False])), ("close_contours", node),
+        ("reverse_contours", node, draw.choice([None, [0], [3]])), ("split_outline", node),
+        ("set_segments", node, some(), draw.choice(["line", "quad", "cubic", "arc"])),
+        ("add_contour", node, draw.choice(["M 5 5 h 3 v 3 z", "M 0 0", "nonsense"])), ("move_points", node, rows, by),
+        ("place_points", node, rows[:1], [by]), ("insert_point", node, rows[0], by), ("delete_points", node, rows[:1]),
+        ("set_weights", node, rows, draw.choice([2, 1, 0, "width"])), ("set_knot", node, rows[0], share),
+        ("insert_knot", node, share), ("remove_knot", node, share), ("refine_knots", node),
+        ("elevate_degree", node, count), ("reduce_degree", node, count),
+    ])  # fmt: skip
 
 
 def random_tree(draw):
@@ -46,12 +96,16 @@ def random_tree(draw):
 
 def random_step(draw, document):
     """An operation and its arguments: mostly ones that make sense, else anything."""
+    if draw.random() < 0.3:
+        return random_curve_step(draw, document)
     sound = draw.random() < 0.6
     pick = lambda good, bad=(): draw.choice([*good] if sound else [*good, *bad])  # noqa: E731
     ids = [node.id for node in walk(*document.roots)]
     ids = ids if sound and ids else [*ids, "gone"]
     one = lambda: draw.choice(ids)  # noqa: E731
     many = lambda: draw.choices(ids, k=draw.randrange(1, 4) if sound else draw.randrange(4))  # noqa: E731
+    flats = [node.id for node in walk(*document.roots) if is_outline(node, document.definitions)]
+    some_outlines = lambda: draw.choices(flats, k=draw.choice([1, 2])) if flats else many()  # noqa: E731
     place = pick([None, 0, 1], [2, -1, 99])
     number = pick([1, 2.5, "width"], [0, -4, "depth * 2", "gone", "1 +", float("nan"), float("inf"), None, "é"])
     kind = pick(["union", "difference", "intersection", "hull", "linear_array", "mirror"],
@@ -77,6 +131,16 @@ def random_step(draw, document):
         lambda: ("paste", clip(document, ids[:1]) if len(ids) > 1 else document, draw.choice([None, one()]), place),
         lambda: ("reorder", many(), draw.choice([-2, -1, 1, 5])),
         lambda: ("promote", one()),
+        *(lambda: ("make_solid", draw.choice(["extrude", "revolve", "sweep", "loft", "pipe"]), some_outlines()),) * 3,
+        lambda: ("make_solid", draw.choice(["extrude", "pipe", "box"]), many(), {"tolerance": number}),
+        lambda: (
+            "bend_segment",
+            draw.choice(flats or ids),
+            draw.choice([0, 7]),
+            draw.choice([0, 1, -1]),
+            draw.choice([0.5, number]),
+            draw.choice([(1, -2), vector]),
+        ),
         lambda: ("swap", one(), one()),
         lambda: ("rename_each", many(), draw.choice(["part #", "", "same"])),
         lambda: ("reorder_parameter", name, draw.choice([0, 1, -1, 9])),
@@ -124,7 +188,7 @@ def random_step(draw, document):
 def call(step):
     """Arguments and keywords of a drawn step; a dictionary that comes last may stand for keywords."""
     name, *arguments = step
-    if name in ("set_fields", "set_section") and isinstance(arguments[-1], dict):
+    if name in ("set_fields", "set_section", "make_solid") and isinstance(arguments[-1], dict):
         return name, arguments[:-1], arguments[-1]
     return name, arguments, {}
 
@@ -156,7 +220,7 @@ def check(document):
     """What holds for every document, whatever was done to it."""
     table = to_table(document)  # refuses doubled ids
     assert to_table(from_table(table)) == table
-    names = [solid.name for solid in document.solids]
+    names = [root.name for root in document.standing]
     assert len(set(names)) == len(names) and all(names)
     known = {parameter.name for parameter in document.parameters}
     definitions = {root.id for root in document.definitions}
@@ -164,14 +228,16 @@ def check(document):
         fewest, most = type(node).operands
         assert isinstance(node, Instance) or len(node.children) >= fewest
         assert most is None or len(node.children) <= most
-        flat = isinstance(node, Extrude | Revolve)
-        assert all(isinstance(child, OUTLINES) == flat for child in node.children)
+        flat = isinstance(node, FROM_OUTLINES) or is_outline(node, document.definitions)
+        assert all(is_outline(child, document.definitions) == flat for child in node.children)
         assert names_of(node.expressions()) <= known
         assert not isinstance(node, Instance) or node.definition in definitions
     for one in document.sets:
         assert {name for name, _ in one.values} <= known
     assert sum(section.active for section in document.sections) <= 6
-    assert len(resolve(document).solids) == len(document.solids)
+    assert not any(is_outline(root, document.definitions) for root in document.solids)
+    assert all(is_outline(root, document.definitions) for root in document.profiles)
+    assert len(resolve(document).standing) == len(document.standing)
 
 
 @pytest.mark.parametrize("seed", range(SEEDS))
@@ -210,11 +276,16 @@ def test_random_edits_leave_a_valid_document_and_the_very_way_back(seed):
             assert 5 < len(str(refusal)) < 400 and "\n" not in str(refusal)
         check(session.document)
         if count % 25 == 0:
-            for root in resolve(session.document).solids:
+            shown = resolve(session.document)
+            for root in shown.solids:
                 entry = evaluator.evaluate(root, 1.0)
                 assert entry.solid is not None or entry.problems
-        if sum(1 for _ in walk(*session.document.roots)) > 100:
-            session.do("delete", [node.id for node in session.document.solids[2:]])
+            for root in shown.profiles:
+                path, problems = profile_of(root)
+                assert path is not None or problems
+        if sum(1 for _ in walk(*session.document.roots)) > 60:
+            session.do("delete", [*(node.id for node in session.document.solids[2:]),
+                                  *(node.id for node in session.document.profiles[3:])])  # fmt: skip
     while session.redo():
         pass
     last = session.document

@@ -6,12 +6,15 @@ import pytest
 
 from solidtree.model.document.document import Document, Parameter, ParameterSet, Section
 from solidtree.model.document.nodes import KINDS, Broken, Node
+from solidtree.model.document.outlines import Path as Outline
 from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered, walk
 from solidtree.model.project.assets import default_store
 from solidtree.model.project.project_file import FORMAT
 from solidtree.model.script import (
+    bezier,
     box,
+    bspline,
     circle,
     cone,
     cylinder,
@@ -22,10 +25,13 @@ from solidtree.model.script import (
     imported_mesh,
     instance,
     linear_array,
+    loft,
     minkowski,
     mirror,
     open_document,
     parameter,
+    path,
+    pipe,
     polar_array,
     polygon,
     polyhedron,
@@ -33,6 +39,7 @@ from solidtree.model.script import (
     revolve,
     save,
     sphere,
+    sweep,
     torus,
     union,
 )  # fmt: skip
@@ -85,7 +92,47 @@ def format_2() -> Document:
     )
 
 
-@pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2)])
+def format_3() -> Document:
+    """Format 2, with curves and what is made of them, and outlines that stand by themselves."""
+    before = format_2()
+    rail = path([("move", (0, 0, 0)), ("cubic", (0, 0, 10), (10, 0, 10), (10, 0, 20))]).named("rail")
+    ring = bspline([(8, 0), (8, 8), (-8, 8), (-8, -8), (8, -8)], 2, knots=[0, 1, 2, 3, 4, 6], closed=True)
+    drop = bezier([(0, 0), ("width", 12), (12, 0)], weights=[1, 2, 1], closed=True)
+    strung = Outline(
+        points=((0, 0), (0, 0), (5, 9), (9, 9), (9, 0), (0, -4), (4, -2), (5, -4)),
+        segments="MSLlMQl",
+        joints="csyac",
+        splines=((2, (0.0, 0.0, 0.0, 1.0, 1.0, 1.0), (1.0, 0.5, 1.0)),),
+        even_odd=True,
+    )
+    solids = [
+        extrude(drop, 5, below="depth", taper=3).named("drop"),
+        revolve(rectangle(2, 3).at(4), 90, start=30, tolerance=0.1).named("turned"),
+        sweep(circle(1), rail, twist=30, end_scale=0.5).named("swept"),
+        loft(rectangle(9, 9, centred=True), circle(3).at(0, 0, 12), smooth=True).named("loft"),
+        pipe(rail.named(""), 2, bore=1, rounded=True, segments=24).named("pipe"),
+    ]
+    profiles = [
+        strung.named("strung").turned(x=90).at(0, 5, 0),
+        ring.named("ring"),
+        (circle(4) - circle(2)).named("washer").coloured("red").hidden(),
+        instance("m9").named("again").at(30),
+    ]
+    roots = tuple(root.with_(id=f"k{i}") for i, root in enumerate((*solids, *profiles)))
+    roots = tuple(_children_numbered(root) for root in roots)
+    return before.with_(
+        solids=(*before.solids, *roots[: len(solids)]),
+        profiles=roots[len(solids) :],
+        definitions=(*before.definitions, rectangle(3, 2).named("plate").with_(id="m9")),
+        notes="Every kind of node, as format 3 writes it.",
+    )
+
+
+def _children_numbered(root: Node) -> Node:
+    return root.with_(children=tuple(child.with_(id=f"{root.id}_{i}") for i, child in enumerate(root.children)))
+
+
+@pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2), ("format_3", format_3)])
 def test_every_format_opens_as_it_was_made(name, made):
     assert same_document(open_document(PROJECTS / f"{name}.solidtree"), made())
 

@@ -3,7 +3,9 @@
 import numpy as np
 import pytest
 
-from solidtree.model.document.primitives import Circle, Cone, Cylinder, Extrude, Rectangle, Sphere, Torus
+from solidtree.model.document.from_outlines import Extrude
+from solidtree.model.document.outlines import Circle, Rectangle
+from solidtree.model.document.primitives import Cone, Cylinder, Sphere, Torus
 from solidtree.model.solid.evaluate import Evaluator
 from solidtree.model.solid.results import arrays_of
 from solidtree.model.solid.tessellation import circle_segments, sphere_segments

@@ -362,7 +362,7 @@ def test_fields_of_every_kind_have_a_form(driver):
         if kind in (Node, Broken, Instance):
             continue
         few = kind.operands[0]
-        node = kind(id="x", name="x", children=(ball,) * min(few, 1))
+        node = kind(id="x", name="x", children=tuple(ball.with_(id=f"ball{i}") for i in range(few)))
         driver.session.open(Document(solids=(node,)))
         driver.session.select(["x"])
         assert driver.window.properties.widget().findChild(QLineEdit, "name").text() == "x"

@@ -16,7 +16,7 @@ from ..panels.text_line import TextLine
 from ..parameters.value_slider import ValueSlider
 from ..settings import Settings
 
-MENUS = ("File", "Edit", "Add", "Combine", "Tools", "View", "Help")
+MENUS = ("File", "Edit", "Add", "Combine", "Curve", "Tools", "View", "Help")
 
 
 class Actions(QObject):

@@ -87,6 +87,8 @@ def _centre(window: MainWindow) -> None:
 def _place(window: MainWindow) -> None:
     window.measure.end()
     window.sight.end()
+    window.draw.end()
+    window.face_plane.end()
     window.place_on_face.start()
 
 

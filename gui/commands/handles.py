@@ -26,6 +26,8 @@ def _choose(mode: str) -> Callable[[MainWindow], None]:
     def run(window: MainWindow) -> None:
         window.measure.end()  # it would keep the mouse from the handles
         window.sight.end()
+        window.draw.end()
+        window.face_plane.end()
         window.handles.choose(mode)
 
     return run

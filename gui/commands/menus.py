@@ -22,14 +22,22 @@ ORDER = {
     "File": "new open recent examples - save save_as - import export export_drawing export_diagram - quit",
     "Edit": "undo redo - cut copy paste copy_script duplicate delete - rename dissolve link unlink Edit/Order - "
     "toggle_visible show_hidden - select_all invert Edit/Select find - Edit/Parameters - evaluate cancel",
-    "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace - add_extrude add_revolve",
+    "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace - add_extrude add_revolve - "
+    "add_rectangle add_circle add_polygon",
     "Combine": "union difference intersection hull minkowski - group Combine/Change_to - "
     "linear_array polar_array mirror",
+    "Curve": "draw_pen draw_freehand draw_rectangle draw_ellipse draw_polygon draw_star draw_arc draw_control_points "
+    "draw_through_points - Curve/Work_plane look_at_plane - extrude revolve sweep loft pipe - "
+    "Curve/Nodes Curve/Nodes_become Curve/Segments_become Curve/Joints Curve/Align_nodes transform_box - "
+    "unite_outlines subtract_outlines intersect_outlines "
+    "exclude_outlines - offset_outline stroke_outline "
+    "convert_to_path convert_to_bspline - elevate_degree reduce_degree refine_knots - reverse_contours split_outline - mirror_outline_x mirror_outline_y - "
+    "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
-    "view_left - perspective grid ghosts colour_by_node translucent sections - hidden_surface View/Hidden_surfaces "
-    "View/Style View/Theme - diagram bsp_panel panels",
+    "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
+    "View/Hidden_surfaces View/Style View/Theme - diagram bsp_panel panels",
     "Help": "palette cheat_sheet shortcuts - about",
 }
 """What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.

@@ -80,6 +80,8 @@ def _at_face(window: MainWindow) -> None:
     window.measure.end()
     window.sight.end()
     window.place_on_face.end()
+    window.draw.end()
+    window.face_plane.end()
     window.section_tool.ask_face(take)
 
 

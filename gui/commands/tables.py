@@ -8,10 +8,13 @@ from ...model.editing.commands import DOCUMENT_COMMANDS
 from ...model.editing.tree_commands import TREE_COMMANDS
 from ..tree.edit_commands import EDIT_COMMANDS
 from .arrange import ARRANGE_COMMANDS
+from .curves import CURVE_COMMANDS
+from .draw_tools import DRAW_COMMANDS
 from .drawing import DRAWING_COMMANDS
 from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
+from .nodes import NODE_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
 from .sections import SECTION_COMMANDS
@@ -31,6 +34,8 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (PARAMETER_COMMANDS, window),
         (DOCUMENT_COMMANDS, window.session),
         (TREE_COMMANDS, window.session),
+        (CURVE_COMMANDS, window),
+        (NODE_COMMANDS, window),
         (EDIT_COMMANDS, window),
         (VIEW_COMMANDS, window),
         (HIDDEN_SURFACE_COMMANDS, window),
@@ -39,6 +44,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (HANDLE_COMMANDS, window),
         (MEASURE_COMMANDS, window),
         (SIGHT_COMMANDS, window),
+        (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
     ):
         actions.add(table, context)

@@ -29,11 +29,12 @@ THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
 
 
 def _no_solid(window: MainWindow) -> str | None:
-    return None if any(root.visible for root in window.session.document.solids) else "no solid is visible"
+    visible = any(root.visible for root in window.session.document.standing)
+    return None if visible else "no solid and no outline is visible"
 
 
 def _nothing(window: MainWindow) -> str | None:
-    return None if window.session.document.solids else "the document is empty"
+    return None if window.session.document.standing else "the document is empty"
 
 
 def _selected(window: MainWindow) -> str | None:
@@ -46,13 +47,13 @@ def _busy(window: MainWindow) -> str | None:
 
 
 def _select_all(window: MainWindow) -> None:
-    window.session.select([root.id for root in window.session.document.solids])
+    window.session.select([root.id for root in window.session.document.standing])
 
 
 def _invert(window: MainWindow) -> None:
     chosen = set(window.session.selection)
-    solids = window.session.document.solids
-    window.session.select([root.id for root in solids if not any(node.id in chosen for node in walk(root))])
+    roots = window.session.document.standing
+    window.session.select([root.id for root in roots if not any(node.id in chosen for node in walk(root))])
 
 
 def _shortcuts(window: MainWindow) -> None:
@@ -67,6 +68,17 @@ def _cheat_sheet(window: MainWindow) -> None:
     CheatSheet(window.actions_, window).open()
 
 
+def _tolerances(window: MainWindow) -> None:
+    from ..tolerances import Tolerances
+
+    def take(display: float, export: float) -> None:
+        window.settings.set_tolerance("display", display)
+        window.settings.set_tolerance("export", export)
+        window.evaluation.set_tolerance(display)
+
+    Tolerances(window, window.evaluation.tolerance, window.settings.tolerance("export"), take).open()
+
+
 def _about(window: MainWindow) -> None:
     from ..dialogs import about
 
@@ -76,24 +88,24 @@ def _about(window: MainWindow) -> None:
 FILE_COMMANDS: tuple[Command, ...] = (
     Command("new", "New", "File", lambda w: w.files.new(), shortcut="Ctrl+N", icon="new", tip="An empty document"),
     Command("open", "Open …", "File", lambda w: w.files.ask_open(), shortcut="Ctrl+O", icon="open",
-            tip="A project, or a mesh file as a new document", toolbar=True),
+            tip="A project, or a mesh file or a drawing as a new document", toolbar=True),
     Command("save", "Save", "File", lambda w: w.files.save(), shortcut="Ctrl+S", icon="save",
             tip="Write the project to its file", toolbar=True),
     Command("save_as", "Save as …", "File", lambda w: w.files.save_as(), shortcut="Ctrl+Shift+S",
             tip="Write the project to another file"),
     Command("import", "Import …", "File", lambda w: w.files.ask_import(), shortcut="Ctrl+Shift+O", icon="import",
-            tip="Add the solids of a mesh file or of a project"),
+            tip="Add the solids of a mesh file, the outlines of a drawing, or another project"),
     Command("export", "Export …", "File", lambda w: w.files.ask_export(), _no_solid, "Ctrl+E", "export",
-            "Write the visible solids as a mesh, for printing or other programs", True),
+            "Write the visible solids as a mesh, or the outlines as a drawing, for other programs", True),
     Command("quit", "Quit", "File", lambda w: w.close(), shortcut="Ctrl+Q", icon="quit", tip="Close the window"),
 )  # fmt: skip
 
 VIEW_COMMANDS: tuple[Command, ...] = (
     Command("rename", "Rename", "Edit", lambda w: w.tree.rename_selected(), _selected, "F2", "",
             "Give the selected node a name; several get what is typed, each with its number"),
-    Command("select_all", "Select all", "Edit", _select_all, _nothing, "Ctrl+A", tip="Select every solid"),
+    Command("select_all", "Select all", "Edit", _select_all, _nothing, "Ctrl+A", tip="Select every solid and outline"),
     Command("invert", "Invert selection", "Edit", _invert, _nothing, "Ctrl+Shift+A",
-            tip="Select the solids in which nothing is selected"),
+            tip="Select the solids and outlines in which nothing is selected"),
     Command("evaluate", "Evaluate again", "Edit", lambda w: w.evaluation.ask(), _nothing, "F5",
             tip="Compute all solids, as after a cancelled evaluation"),
     Command("cancel", "Cancel evaluation", "Edit", lambda w: w.evaluation.cancel(), _busy, "Ctrl+.", "cancel",
@@ -107,6 +119,8 @@ VIEW_COMMANDS: tuple[Command, ...] = (
                 icon=f"view_{name}", tip="Seen from a corner" if name == "iso" else f"The model seen from the {name}")
         for name, title, keys in VIEWS
     ),
+    Command("tolerances", "Tolerances …", "View", _tolerances, icon="tolerances",
+            tip="How fine curved surfaces are: in the picture, and in what is exported"),
     Command("perspective", "Perspective", "View", lambda w: w.looks.set_parallel(not w.looks.parallel), shortcut="P",
             icon="perspective", tip="Perspective, or parallel projection", toolbar=True,
             checked=lambda w: not w.looks.parallel),

@@ -35,6 +35,18 @@ HANDLES = (
     ("Enter", "Keep it"),
     ("Escape", "As it was before"),
 )
+NODES = (
+    ("Drag", "Nodes, handles, or the curve: it bends"),
+    ("Shift, Ctrl with it", "15° steps, no snapping"),
+    ("Alt with a handle", "Break the node"),
+    ("Shift+click", "Add to the choice"),
+    ("Shift+drag", "Choose a frame; Ctrl takes away"),
+    ("Double click", "New node; on a node its next kind"),
+    ("Right click", "Menu of nodes"),
+    ("Arrow keys", "1 mm; Shift 10, Alt 0.1"),
+    ("Tab", "The next node"),
+    ("Ctrl+A, Delete", "All nodes, take out the chosen"),
+)
 TREE = (
     ("Drag", "Into an operation, or between rows"),
     ("Ctrl+drag", "A copy"),
@@ -60,6 +72,7 @@ class CheatSheet(QDialog):
         blocks = [
             ("In the picture", MOUSE),
             ("With handles", HANDLES),
+            ("On an outline", NODES),
             ("In the tree", TREE),
             ("In number fields", FIELDS),
         ]

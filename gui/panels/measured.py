@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
+from ...model.document.outlines import is_outline
 from ...model.document.tree import find, homes, outermost
 
 if TYPE_CHECKING:
@@ -45,7 +46,9 @@ def measured(
             together = summed(known)
         answer[NODES] = together, "selection"
     elif ids and ids[0] not in roots:
-        answer[NODE] = of(ids[0]), find(document, ids[0]).label
+        node = find(document, ids[0])
+        if not is_outline(node, document.definitions):  # whose form tells what there is to measure
+            answer[NODE] = of(ids[0]), node.label
     if len(roots) == 1:
         (root,) = roots.values()
         if root.id in {solid.id for solid in document.solids}:

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import Any
 
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QMenu, QPlainTextEdit, QToolButton
 
 from ...model.document.fields import FieldSpec
 from ...model.document.nodes import Node, field_specs
+from ...model.document.outlines import OUTLINES
 from ...model.document.placement import Affine, Move, Reflect, Scale, Step, Turn
 from ...model.document.tree import find, walk
 from ..icons import icon, kind_icon
 from .colour_field import ColourField
 from .form import Form
 from .number_field import LENGTH, STEPS, Steps
+from .outline_words import field_words, measured_words
 from .property_edit import field_edit, position_edit, step_edit, with_step
 from .text_line import TextLine
 
@@ -43,7 +44,10 @@ class NodeForm(Form):
         if specs:
             self.heading(node.title)
         for spec in specs:
-            self._field(node.id, spec)
+            if spec.type not in ("letters", "splines"):  # they say nothing to a reader; the points' row sums them up
+                self._field(node.id, spec)
+        if isinstance(node, OUTLINES):
+            self._measures()
         self._placement(node)
         self.build_look([node.id])
         self._note(node.id)
@@ -124,8 +128,26 @@ class NodeForm(Form):
         else:
             words = QLabel(self)
             words.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-            self.rows.append(lambda node, values: words.setText(_summary(getattr(node, spec.name), spec)))
+            self.rows.append(lambda node, values: words.setText(field_words(node, spec)))
             self.line(spec.label, words, spec.tip)
+
+    def _measures(self) -> None:
+        """Length and area of an outline, which do not follow every picture of a drag."""
+        length, area = QLabel(self), QLabel(self)
+        shown = b""
+        for name, label, tip in (("length", length, "Of all contours"), ("area", area, "Of what is filled")):
+            label.setObjectName(f"outline_{name}")
+            label.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+            self.line(name.capitalize(), label, tip)
+
+        def refresh(node: Node, values: dict[str, float]) -> None:
+            nonlocal shown
+            if not self.session.previewing and (node.symbolic or node.shape_digest != shown):
+                shown = node.shape_digest
+                for label, words in zip((length, area), measured_words(node, values), strict=True):
+                    label.setText(words)
+
+        self.rows.append(refresh)
 
     def _placement(self, node: Node) -> None:
         more = QToolButton(self)
@@ -205,10 +227,3 @@ class NodeForm(Form):
             watched.document().setModified(False)
             self.do("set_note", "Change note", watched.property("node"), watched.toPlainText())
         return super().eventFilter(watched, event)
-
-
-def _summary(value: Any, spec: FieldSpec) -> str:
-    if spec.type in ("points", "faces"):
-        return f"{len(value)}"
-    text = str(value)
-    return text if len(text) <= 24 else text[:12] + "…"

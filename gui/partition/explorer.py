@@ -98,7 +98,7 @@ class Explorer(QObject):
         page.table.hide()
         if not self._active:
             return
-        meshes = {} if viewer is None else viewer.scene.meshes
+        meshes = {} if viewer is None else viewer.scene.solid_meshes
         triangles = sum(len(meshes[one].triangles) for one in source.solid_ids if one in meshes)
         if viewer is None or tree is None or source.report is None or triangles != tree.faces.count:
             words = source.words or "There is nothing to sort."

@@ -15,8 +15,8 @@ SHORTEST, LONGEST = 40, 350  # milliseconds from one picture to the next
 KEYS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Home, Qt.Key.Key_End, Qt.Key.Key_Space)
 
 
-class _Slider(QSlider):
-    """Keeps its keys, of which the window has one as a shortcut; Space is the bar's."""
+class StepSlider(QSlider):
+    """Keeps its keys, of which the window has one as a shortcut; Space is its parent's."""
 
     def event(self, event: QEvent) -> bool:
         if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) and event.key() in KEYS:
@@ -38,7 +38,7 @@ class OrderBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.slider = _Slider(Qt.Orientation.Horizontal, self)
+        self.slider = StepSlider(Qt.Orientation.Horizontal, self)
         self.slider.setAccessibleName("Fragments drawn, from back to front")
         self.slider.setToolTip("Draw only the first fragments of the painter's order, from back to front")
         self.slider.valueChanged.connect(self._moved)

@@ -1,4 +1,4 @@
-"""`solidtree export` and `solidtree convert`: mesh files and projects by their endings."""
+"""`solidtree export` and `solidtree convert`: mesh files, drawings of outlines and projects by their endings."""
 
 from __future__ import annotations
 
@@ -14,8 +14,12 @@ from .parameters import read_with_values
 def add_options(command: argparse.ArgumentParser) -> None:
     """The options of `export`."""
     command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
-    command.add_argument("out", metavar="OUT", help="the file to write; its ending tells the format")
-    command.add_argument("--solid", metavar="NAME", help="this solid alone; default: all that are visible")
+    command.add_argument(
+        "out", metavar="OUT", help="the file to write, by its ending: meshes get the solids, .svg and .dxf the outlines"
+    )
+    command.add_argument(
+        "--solid", metavar="NAME", help="this solid, or this outline, alone; default: all that are visible"
+    )
     command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
     add_parameter_options(command)
 
@@ -29,10 +33,13 @@ def add_convert_options(command: argparse.ArgumentParser) -> None:
 
 def export(options: argparse.Namespace) -> int:
     """Evaluate and write; the status is 1 where a solid is empty or has failed."""
+    from ...model.exchange.curves_out import is_drawing_ending
     from ...model.exchange.export import solids_to_write
     from ...model.exchange.meshes_out import check_ending, write_meshes
 
     out = Path(options.out)
+    if is_drawing_ending(out):
+        return _export_outlines(options, out)
     project = out.suffix.lower() == ".solidtree"
     if not project:
         naming(options.out, lambda: check_ending(out))
@@ -51,3 +58,11 @@ def export(options: argparse.Namespace) -> int:
     status = told(options.file, (message for result in results for message in result.messages), document)
     empty = [result for result in results if result.solid is None or result.solid.is_empty()]
     return NOT_IN_ORDER if empty else status
+
+
+def _export_outlines(options: argparse.Namespace, out: Path) -> int:
+    from ...model.exchange.curves_out import outlines_to_write, write_curves
+
+    outlines = outlines_to_write(read_with_values(options), options.solid)
+    naming(options.out, lambda: write_curves(out, outlines, options.tolerance))
+    return DONE

@@ -135,12 +135,19 @@ def render(options: argparse.Namespace) -> int:
     bar = Bar(document)
     try:
         from ...model.solid.results import evaluate_document
+        from ...model.solid.sheet import sheet_of
 
         evaluation = evaluate_document(document, options.tolerance, progress=bar)
     finally:
         bar.end()
-    status = told(options.file, (message for result in evaluation.visible for message in result.messages), document)
-    shown = [(result, mesh) for result in evaluation.visible if (mesh := evaluation.display(result)) is not None]
+    results = (*evaluation.visible, *(result for result in evaluation.profiles if result.root.visible))
+    status = told(options.file, (message for result in results for message in result.messages), document)
+    shown = [(result.root, mesh) for result in evaluation.visible if (mesh := evaluation.display(result)) is not None]
+    whole = len(shown) == len(evaluation.visible)
+    if options.ids is None:  # which numbers solids
+        outlines = [result for result in evaluation.profiles if result.root.visible]
+        sheets = [(result.root, sheet_of(result.root, options.tolerance)) for result in outlines if result.path]
+        shown, whole = shown + sheets, whole and len(sheets) == len(outlines)
     meshes = [mesh for _, mesh in shown]
 
     from ...render import picture
@@ -151,7 +158,7 @@ def render(options: argparse.Namespace) -> int:
         pixels = picture.ids_picture(meshes, options.size, view, numbers=numbers, perspective=perspective)
     else:
         pixels = picture.picture(
-            [(mesh, _paint(result.root, options.colours == "nodes")) for result, mesh in shown],
+            [(mesh, _paint(root, options.colours == "nodes")) for root, mesh in shown],
             options.size,
             view,
             style=options.style,
@@ -174,7 +181,7 @@ def render(options: argparse.Namespace) -> int:
     if not any(len(mesh.triangles) for mesh in meshes):
         warn(options.file, "there is nothing to be seen")
         return NOT_IN_ORDER
-    return status if len(shown) == len(evaluation.visible) else NOT_IN_ORDER
+    return status if whole else NOT_IN_ORDER
 
 
 def _leaves(section: Section, mesh: DisplayMesh) -> bool:

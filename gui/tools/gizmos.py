@@ -101,7 +101,7 @@ class Gizmos:
         if not selection or len(selection) > MOST:
             return
         ids = outermost(document, selection)
-        places = places_of(self._resolver.resolve(document).solids, ids)
+        places = places_of(self._resolver.resolve(document).standing, ids)
         if len(places) != len(ids):
             return
         firsts = [places[node_id][0] for node_id in ids]

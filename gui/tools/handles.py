@@ -35,6 +35,8 @@ class Handles(Tool):
 
     hint = Signal(str)
     refused = Signal(str)
+    mode_changed = Signal()
+    """The mode is another, or other tools have the clicks now, or no more."""
 
     def __init__(
         self, viewport: Viewport, session: Session, settings: Settings, half_spaces_seen: Callable[[], bool]
@@ -54,6 +56,7 @@ class Handles(Tool):
         self._name = ""
         self._own = False
         self._hidden = False
+        self._aside = False
         self._pointer: tuple[float, float, Qt.KeyboardModifier] | None = None
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
@@ -75,6 +78,7 @@ class Handles(Tool):
         if self.mode in ("move", "turn", "scale"):
             self._begin_typing()
         self._viewport.setFocus()
+        self.mode_changed.emit()
 
     def set_local(self, local: bool) -> None:
         self.local = local
@@ -91,6 +95,18 @@ class Handles(Tool):
         if hidden:
             self.cancel()
         self._show()
+        self.mode_changed.emit()
+
+    @property
+    def hidden(self) -> bool:
+        """Whether another tool has the clicks."""
+        return self._hidden
+
+    def set_aside(self, aside: bool) -> None:
+        """Leave out the handles of no mode, where the nodes of an outline take their place."""
+        if aside != self._aside:
+            self._aside = aside
+            self._show()
 
     def set_snapping(self, snapping: bool) -> None:
         self.snapping = snapping
@@ -333,7 +349,8 @@ class Handles(Tool):
 
     def _show(self) -> None:
         if self._picture is not None:
-            state = State(self._session.document, () if self._hidden else self._session.selection)
+            hidden = self._hidden or (self._aside and not self.mode)
+            state = State(self._session.document, () if hidden else self._session.selection)
             self._picture.show(state, self.mode, self.local, self._drag is not None)
             self._changed()
 

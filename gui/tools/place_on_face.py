@@ -163,7 +163,7 @@ class PlaceOnFace(ClickTool):
     def shown(self) -> None:
         task = self._task
         if task is not None and self._viewer is not None and not self._session.previewing:
-            task.laying.meshes = self._viewer.scene.meshes
+            task.laying.meshes = self._viewer.scene.solid_meshes
 
     # What the pointer means.
 

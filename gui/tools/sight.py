@@ -183,7 +183,7 @@ class SightTool(ClickTool):
         if found is None:
             return None
         if self._known is None or self._known.rays.tree is not found.tree:
-            meshes = self._viewer.scene.meshes
+            meshes = self._viewer.scene.solid_meshes
             if any(solid_id not in meshes for solid_id in found.solid_ids):
                 return None
             self._known = SolidRays(found.tree, [meshes[solid_id] for solid_id in found.solid_ids])

@@ -67,3 +67,11 @@ def script_text(document: Document, ids: Sequence[str]) -> str:
                 f"“{node.label}” is more than {MAX_NESTING} levels deep, which Python cannot read in one line"
             )
     return "\n".join(script_of(node) for node in nodes)
+
+
+def is_path_text(text: str) -> bool:
+    """Whether text begins as SVG path data or an SVG document do, at a glance."""
+    head = text[:4096].lstrip()
+    if head[:1] in ("m", "M"):
+        return head[1:2] in tuple(" \t\r\n,+-.0123456789") and any(letter in head for letter in "0123456789")
+    return head[:1] == "<" and "<svg" in head

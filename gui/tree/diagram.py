@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QPoint, QPointF, Qt, Signal
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, Signal
 from PySide6.QtGui import (
     QContextMenuEvent,
     QDrag,
@@ -26,7 +26,7 @@ from ..commands.actions import Actions
 from .diagram_canvas import DiagramCanvas
 from .diagram_paint import letters
 from .drop_view import drag_picture
-from .drops import answer, copies, dragged, drop, drop_fault, is_drop
+from .drops import answer, copies, dragged, drop, drop_fault, is_drop, root_place
 from .tree_menu import node_menu
 
 Part = tuple[Node, str, tuple[Node, ...], frozenset[str], csg_diagram.Diagram]
@@ -205,27 +205,31 @@ class Diagram(DiagramCanvas):
         drag.exec(Qt.DropAction.MoveAction | Qt.DropAction.CopyAction, Qt.DropAction.MoveAction)
         self._end()
 
-    def _drop_place(self, point: QPoint) -> tuple[str | None, int | None, tuple[int, str] | None]:
+    def _drop_place(self, point: QPoint, data: QMimeData) -> tuple[str | None, int | None, tuple[int, str] | None]:
         """The operation and place that a drop at a point means: on a circle its last operand, beside a leaf there."""
         place = self.item_at(point)
         if place < 0:
             return None, None, None
         item, document = self.shown.items[place], self._session.document
         if item.role == "result":
-            index = index_of(document, item.node_id) if item.node_id in {r.id for r in document.solids} else None
+            rows = {root.id: row for row, root in enumerate(document.standing)}
+            index = root_place(self._session, data, rows[item.node_id]) if item.node_id in rows else None
             return None, index, (place, "before")
         if item.role != "leaf":
             return item.node_id, None, (place, "on")
         above = parent(document, item.node_id)
         after = self.to_diagram(QPointF(point)).x() > item.x
         index = index_of(document, item.node_id) + after
+        if above is None and not any(root.id == item.node_id for root in document.definitions):
+            rows = [root.id for root in document.standing]
+            index = root_place(self._session, data, rows.index(item.node_id) + after)
         return (None if above is None else above.id), index, (place, "after" if after else "before")
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         event.accept() if is_drop(event.mimeData()) else event.ignore()
 
     def dragMoveEvent(self, event: QDragMoveEvent) -> None:
-        parent_id, index, mark = self._drop_place(event.position().toPoint())
+        parent_id, index, mark = self._drop_place(event.position().toPoint(), event.mimeData())
         copy = copies(event)
         fault = drop_fault(self._session, event.mimeData(), copy, parent_id, index)
         self._tell(fault or "")
@@ -236,7 +240,7 @@ class Diagram(DiagramCanvas):
         self._end()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        parent_id, index, _ = self._drop_place(event.position().toPoint())
+        parent_id, index, _ = self._drop_place(event.position().toPoint(), event.mimeData())
         copy = copies(event)
         self._end()
         try:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QModelIndex, QPoint, QPointF, QRect, Qt, QTimer, Signal
+from PySide6.QtCore import QMimeData, QModelIndex, QPoint, QPointF, QRect, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QDrag,
@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QTreeView, QWidget
 from ...model.document.errors import Refusal
 from ...model.editing.session import Session
 from ..theme import colours_now
-from .drops import answer, copies, dragged, drop, drop_fault, is_drop
+from .drops import answer, copies, dragged, drop, drop_fault, is_drop, root_place
 from .tree_model import NAME, TreeModel
 
 EDGE = 0.28  # of a row's height: the part above and below in which a drop goes beside it
@@ -91,7 +91,7 @@ class DropView(QTreeView):
 
     # Where a drop goes.
 
-    def place_at(self, point: QPoint) -> tuple[Place, str, QRect]:
+    def place_at(self, point: QPoint, data: QMimeData) -> tuple[Place, str, QRect]:
         """What a drop at a point of the viewport means, and the mark that shows it: `line` or `box`, and where.
 
         Below the last operand of an operation the pointer's place sideways tells how far out the drop goes.
@@ -104,7 +104,7 @@ class DropView(QTreeView):
         rect = self._row_rect(index)
         share = (point.y() - rect.top()) / max(rect.height(), 1)
         if share < EDGE:
-            return self._beside(index, 0), "line", self._line(index, below=False)
+            return self._beside(index, 0, data), "line", self._line(index, below=False)
         if share <= 1 - EDGE:
             return (node.id, None), "box", rect
         if self.isExpanded(index) and self.nodes.rowCount(index):
@@ -113,13 +113,13 @@ class DropView(QTreeView):
         lowest = index
         while index.parent().isValid() and point.x() < self._row_rect(index).left() and self._is_last(index):
             index = index.parent()
-        return self._beside(index, 1), "line", self._line(lowest, below=True, left=self._row_rect(index).left())
+        return self._beside(index, 1, data), "line", self._line(lowest, below=True, left=self._row_rect(index).left())
 
-    def _beside(self, index: QModelIndex, offset: int) -> Place:
+    def _beside(self, index: QModelIndex, offset: int, data: QMimeData) -> Place:
         above = self.nodes.node(index.parent())
         if above is not None:
             return above.id, index.row() + offset
-        return None, min(index.row() + offset, len(self._session.document.solids))
+        return None, root_place(self._session, data, index.row() + offset)
 
     def _is_last(self, index: QModelIndex) -> bool:
         return index.row() == self.nodes.rowCount(index.parent()) - 1
@@ -154,7 +154,7 @@ class DropView(QTreeView):
 
     def dragMoveEvent(self, event: QDragMoveEvent) -> None:
         self._pointer = event.position().toPoint()
-        (parent_id, index), shape, rect = self.place_at(self._pointer)
+        (parent_id, index), shape, rect = self.place_at(self._pointer, event.mimeData())
         copy = copies(event)
         fault = drop_fault(self._session, event.mimeData(), copy, parent_id, index)
         over = self.indexAt(self._pointer).siblingAtColumn(NAME)
@@ -172,7 +172,7 @@ class DropView(QTreeView):
         event.accept()
 
     def dropEvent(self, event: QDropEvent) -> None:
-        (parent_id, index), _, _ = self.place_at(event.position().toPoint())
+        (parent_id, index), _, _ = self.place_at(event.position().toPoint(), event.mimeData())
         copy = copies(event)
         self._end()
         try:

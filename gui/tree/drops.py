@@ -12,6 +12,7 @@ from PySide6.QtGui import QDropEvent
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
 from ...model.document.nodes import Instance, Node
+from ...model.document.outlines import is_outline
 from ...model.document.tree import find, room
 from ...model.editing.session import Session
 from ...model.operations.operations import OPERATIONS
@@ -54,6 +55,25 @@ def ids_in(session: Session, data: QMimeData) -> list[str]:
 
 def is_drop(data: QMimeData) -> bool:
     return data.hasFormat(MIME)
+
+
+def root_place(session: Session, data: QMimeData, row: int) -> int:
+    """The row among all roots, before which nodes are dropped, as a place among solids or among profiles: the family
+    of the first node."""
+    document = session.document
+    ids = ids_in(session, data)
+    if ids:
+        flat = node_is_flat(document, ids[0])
+    else:
+        other = clip_in(data)
+        flat = other is not None and not other.solids
+    first, family = (len(document.solids), document.profiles) if flat else (0, document.solids)
+    return min(max(row - first, 0), len(family))
+
+
+@lru_cache(maxsize=8)
+def node_is_flat(document: Document, node_id: str) -> bool:
+    return is_outline(find(document, node_id), document.definitions)
 
 
 def drop_fault(

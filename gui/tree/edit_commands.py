@@ -9,7 +9,7 @@ from PySide6.QtGui import QGuiApplication
 
 from ...model.document.errors import Refusal
 from ...model.editing.commands import Command, place_beside
-from .clipboard import mime_of, read, script_text
+from .clipboard import is_path_text, mime_of, read, script_text
 
 if TYPE_CHECKING:
     from ..window import MainWindow
@@ -41,7 +41,23 @@ def _paste(window: MainWindow) -> None:
     text = QGuiApplication.clipboard().text()
     if not text:
         raise Refusal("there are no nodes on the clipboard")
-    window.session.do("paste", read(text), *place_beside(window.session))
+    if is_path_text(text):
+        _paste_outlines(window, text)
+    else:
+        window.session.do("paste", read(text), *place_beside(window.session))
+
+
+def _paste_outlines(window: MainWindow, text: str) -> None:
+    from ...model.exchange.drawings.outlines_in import document_of_text
+
+    other = document_of_text(text)
+    label = "Paste outline" if len(other.profiles) == 1 else "Paste outlines"
+    if len(other.profiles) == 1:
+        window.session.do("insert", other.profiles[0], label=label)
+    else:
+        window.session.do("insert_document", other, label=label)
+    count = len(other.profiles)
+    window.status.say(f"Pasted {count} outline{'s' * (count > 1)} of SVG, turned over: its y runs down")
 
 
 def _copy_script(window: MainWindow) -> None:

@@ -15,7 +15,7 @@ from ...model.document.distinct_colours import distinct_colour
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
 from ...model.document.nodes import Instance, Node
-from ...model.document.primitives import OUTLINES
+from ...model.document.outlines import OUTLINES
 from ...model.editing.session import Session
 from ...model.solid.provenance import begins_faces
 from ..icons import chip_icon, icon, kind_icon, severity_icon

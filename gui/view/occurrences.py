@@ -39,7 +39,9 @@ def selected_bounds(ids: Iterable[str], meshes: Iterable[DisplayMesh]) -> NDArra
     for mesh in meshes:
         mine = np.array([bool(wanted.intersection(path)) for path in mesh.owners], bool)
         faces = mesh.triangles[mine[mesh.owner]] if len(mine) else mesh.triangles[:0]
-        if len(faces):
+        if mesh.sheet and mine.any():
+            boxes.append(tuple(mesh.bounds))  # an open curve has no faces
+        elif len(faces):
             points = mesh.points[np.unique(faces)]
             boxes.append((points.min(axis=0), points.max(axis=0)))
     if not boxes:

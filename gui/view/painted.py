@@ -30,9 +30,9 @@ class Painted:
         return True
 
     def of(self, document: Document, meshes: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
-        """The mesh and the paint of each visible solid that has faces, by its id."""
+        """The mesh and the paint of each visible solid or profile that has faces, by its id."""
         kept = {}
-        for root in document.solids:
+        for root in document.standing:
             mesh = meshes.get(root.id)
             if mesh is None or not root.visible or not len(mesh.triangles):
                 continue

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 class Viewport(Canvas):
     """Shows meshes by root id. VTK is loaded by `attach`, when the window is already on the screen.
 
-    `ready` comes once, after `attach`; `displayed` carries the meshes in the picture by id, whenever they may be others
-    and before they are drawn; `hovered` carries words on what lies under the pointer, "" for nothing;
+    `ready` comes once, after `attach`; `displayed` carries the solids' meshes in the picture by id, whenever they
+    may be others and before they are drawn; `hovered` carries words on what lies under the pointer, "" for nothing;
     `menu_asked` is Pointing's.
     """
 
@@ -147,7 +147,7 @@ class Viewport(Canvas):
             return
         shown = self._painted.of(self._session.view, self._meshes)
         self.viewer.show(shown)
-        self.displayed.emit({root_id: mesh for root_id, (mesh, _) in shown.items()})
+        self.displayed.emit({root_id: mesh for root_id, (mesh, _) in shown.items() if not mesh.sheet})
         self._highlight()
         if self._fit_pending and shown:
             self._fit_pending = False

@@ -145,11 +145,11 @@ def _followed(a: Curve, b: Curve, size: float, place: Floats, width: Floats, kno
     crossed, touched = [np.zeros((0, 3))], [np.zeros((0, 3))]
     for depth in range(DEPTH + 1):
         p, q = a.plain(one), b.plain(two)
-        near = _boxes_meet(p, q, slack)
+        near = boxes_meet(p, q, slack)
         one, two, p, q, place, width = one[near], two[near], p[near], q[near], place[near], width[near]
         if not len(place):
             break
-        apart = _directions_differ(p, q)
+        apart = directions_differ(p, q)
         last = depth == DEPTH or len(place) > MOST
         around = np.maximum(place[:, None] - known[:, :2], known[:, :2] - place[:, None] - width[:, None])
         done = ~apart & (width.max(-1) < NARROW) & (around.max(-1) <= 0.0).any(-1)
@@ -165,8 +165,8 @@ def _followed(a: Curve, b: Curve, size: float, place: Floats, width: Floats, kno
             done[tried[inside]] = True
         if last:
             break
-        left, right = _halved(one[~done])
-        lower, upper = _halved(two[~done])
+        left, right = halved(one[~done])
+        lower, upper = halved(two[~done])
         corner, width = place[~done], 0.5 * width[~done]
         one, two = np.concatenate([left, left, right, right]), np.concatenate([lower, upper, lower, upper])
         steps = np.array([[0.0, 0.0], [0.0, 1.0], [1.0, 0.0], [1.0, 1.0]])
@@ -189,12 +189,12 @@ def _tips(a: Curve, b: Curve, near: float) -> Floats:
     return distinct(np.column_stack([rows, touching(a, b, rows).astype(float)]))
 
 
-def _halved(controls: Floats) -> tuple[Floats, Floats]:
+def halved(controls: Floats) -> tuple[Floats, Floats]:
     left, right = halves(np.moveaxis(controls, -1, -2))
     return np.moveaxis(left, -2, -1), np.moveaxis(right, -2, -1)
 
 
-def _boxes_meet(p: Floats, q: Floats, slack: float) -> NDArray[np.bool_]:
+def boxes_meet(p: Floats, q: Floats, slack: float) -> NDArray[np.bool_]:
     """(k,) whether the boxes around pieces (k, ., d) overlap along the axes, and along and across either chord."""
     meet = np.ones(len(p), bool)
     meet &= ((p.min(1) <= q.max(1) + slack) & (q.min(1) <= p.max(1) + slack)).all(-1)
@@ -239,7 +239,7 @@ def _cones(points: Floats) -> tuple[Floats, Floats]:
     return chord, np.where(length[:, 0] > 0.0, angle, np.pi)
 
 
-def _directions_differ(p: Floats, q: Floats) -> NDArray[np.bool_]:
+def directions_differ(p: Floats, q: Floats) -> NDArray[np.bool_]:
     """(k,) whether no direction of one piece is parallel to one of the other: then they meet once at most."""
     (one, wide), (two, broad) = _cones(p), _cones(q)
     cosine = np.abs((one * two).sum(-1))

@@ -161,10 +161,16 @@ class Document:
                 names.add(member.name)
 
     def __repr__(self) -> str:
-        return f"<Document of {len(self.solids)} solids>"
+        outlines = f", {len(self.profiles)} outlines" if self.profiles else ""
+        return f"<Document of {len(self.solids)} solids{outlines}>"
 
     def with_(self, **changes: Any) -> Self:
         return dataclasses.replace(self, **changes)
+
+    @property
+    def standing(self) -> tuple[Node, ...]:
+        """The roots that stand in space by themselves: solids and profiles, whose names are all different."""
+        return self.solids + self.profiles
 
     @property
     def roots(self) -> tuple[Node, ...]:

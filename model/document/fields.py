@@ -3,14 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any, Literal
 
 from .errors import Refusal
 from .expression import number, vector
 
-FieldType = Literal["length", "angle", "count", "factor", "vector", "direction", "flag", "text", "points", "faces"]
+FieldType = Literal["length", "angle", "count", "factor", "vector", "direction", "flag", "text", "points", "faces",
+                    "letters", "numbers", "splines"]  # fmt: skip
+
+
+BARE = ("flag", "text", "points", "faces", "letters", "numbers", "splines")
+"""The types that no row of numbers in a form can show."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +38,7 @@ class FieldSpec:
     @property
     def dimension(self) -> int:
         """How many numbers the field holds; 0 where it holds none."""
-        return {"vector": 3, "direction": 3, "flag": 0, "text": 0, "points": 0, "faces": 0}.get(self.type, 1)
+        return {"vector": 3, "direction": 3, **dict.fromkeys(BARE, 0)}.get(self.type, 1)
 
     def checked(self, value: Any, kind: str) -> Any:
         """`value` in the form that nodes keep. Raises Refusal."""
@@ -45,13 +52,16 @@ class FieldSpec:
                 if value not in (True, False) or not isinstance(value, bool | int):
                     raise Refusal(f"{what} must be true or false, not {value!r:.60}")
                 return bool(value)
-            case "text":
+            case "text" | "letters":
                 if not isinstance(value, str):
                     raise Refusal(f"{what} must be text, not {value!r:.60}")
                 return value
             case "points":
-                width = 2 if self.unit == "2-D" else 3
-                return tuple(vector(p, f"{what}: point {i}", width) for i, p in enumerate(_items(value, what)))
+                return _points(value, what, self.unit)
+            case "numbers":
+                return tuple(number(item, f"{what}: {i}") for i, item in enumerate(_items(value, what)))
+            case "splines":
+                return tuple(_spline(item, f"{what}: {i}") for i, item in enumerate(_items(value, what)))
             case "faces":
                 return tuple(tuple(_index(i, what) for i in _items(face, what)) for face in _items(value, what))
         return number(value, what)
@@ -71,6 +81,42 @@ def _items(value: Any, what: str) -> Iterable[Any]:
     if isinstance(value, str) or not isinstance(value, Iterable):
         raise Refusal(f"{what} must be a list, not {value!r:.60}")
     return value
+
+
+def _points(value: Any, what: str, unit: str) -> tuple[tuple[Any, ...], ...]:
+    """Points as tuples: of two coordinates, of three, or of as many as the first one has."""
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    items = list(_items(value, what))
+    width = {"2-D": 2, "mm": 3}.get(unit)
+    if width is None:
+        first = items[0] if items else ()
+        width = len(first) if isinstance(first, tuple | list) and len(first) == 3 else 2
+    if set(map(type, items)) == {tuple} and set(map(len, items)) == {width}:
+        plain = plain_coordinates(items)
+        if plain is not None and all(map(math.isfinite, plain)):
+            zeros = (n for n in plain if n == 0.0) if 0.0 in plain else ()
+            if all(math.copysign(1.0, n) > 0.0 for n in zeros):
+                return tuple(items)  # as nodes keep them already: a path may have many thousands
+    return tuple(vector(p, f"{what}: point {i}", width) for i, p in enumerate(items))
+
+
+def plain_coordinates(points: Sequence[tuple[Any, ...]]) -> list[float] | None:
+    """All coordinates one after the other, or None where one of them is no float."""
+    found = list(chain.from_iterable(points))
+    return found if set(map(type, found)) <= {float} else None
+
+
+def _spline(value: Any, what: str) -> tuple[int, tuple[float, ...], tuple[float, ...]]:
+    """(degree, knots, weights) in plain numbers."""
+    try:
+        degree, knots, weights = value
+    except (TypeError, ValueError):
+        raise Refusal(f"{what} must be a degree, knots and weights, not {value!r:.60}") from None
+    plain = [tuple(number(n, what) for n in _items(part, what)) for part in (knots, weights)]
+    if any(not isinstance(n, float) for part in plain for n in part):
+        raise Refusal(f"{what}: knots and weights of a segment are plain numbers")
+    return _index(degree, what), plain[0], plain[1]  # type: ignore[return-value]
 
 
 def _index(value: object, what: str) -> int:
@@ -130,6 +176,23 @@ def text(default: str, label: str, tip: str = "") -> Any:
 
 def points(label: str, tip: str = "", *, flat: bool = False) -> Any:
     return _field("points", (), label, tip, unit="2-D" if flat else "mm")
+
+
+def curve_points(label: str, tip: str = "") -> Any:
+    """Points of two coordinates each, or of three each."""
+    return _field("points", (), label, tip, unit="2-D or 3-D")
+
+
+def letters(label: str, tip: str = "") -> Any:
+    return _field("letters", "", label, tip)
+
+
+def numbers(label: str, tip: str = "") -> Any:
+    return _field("numbers", (), label, tip)
+
+
+def splines(label: str, tip: str = "") -> Any:
+    return _field("splines", (), label, tip)
 
 
 def faces(label: str, tip: str = "") -> Any:

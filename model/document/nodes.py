@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import dataclasses
 import secrets
+from array import array
 from collections.abc import Mapping
 from dataclasses import dataclass
 from hashlib import blake2b
@@ -81,12 +82,19 @@ class Node:
         if len(children) < fewest or (most is not None and len(children) > most):
             wanted = f"{fewest}" if fewest == most else f"at least {fewest}"
             raise Refusal(f"{self.title} takes {wanted} operand{'' if fewest == 1 else 's'}, not {len(children)}")
-        values = []
+        values: list[Any] = []
+        packed: list[array[float]] = []
         for spec in field_specs(type(self)):
             value = spec.checked(getattr(self, spec.name), self.title)
             _set(self, spec.name, value)
+            plain = fields.plain_coordinates(value) if spec.type == "points" else None
+            if plain is not None:  # many thousands at times: hashed as they are, instead of written out
+                packed.append(array("d", plain))
+                value = (len(value), len(plain))
             values.append(value)
         state = blake2b(repr((self.kind, values)).encode(), digest_size=16)
+        for numbers in packed:
+            state.update(numbers)
         depends = symbolic(tuple(values)) or isinstance(self, Instance)
         for child in children:
             if not isinstance(child, Node):

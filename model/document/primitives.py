@@ -1,4 +1,4 @@
-"""The leaves of a CSG tree, and outlines turned into solids."""
+"""The leaves of a CSG tree that are solids by themselves."""
 
 from __future__ import annotations
 
@@ -92,60 +92,3 @@ class ImportedMesh(Node):
     file_format: str = fields.text("stl", "Format")
     part: Number = fields.count(0, "Part", "Which solid of the file, from 0", minimum=0)
     unit: Number = fields.factor(1.0, "Unit", "Millimetres in one unit of the file", minimum=0.0, above=True)
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
-class Rectangle(Node):
-    """An outline with its lowest corner at the origin."""
-
-    title: ClassVar[str] = "Rectangle"
-    width: Number = fields.size(20.0, "Width")
-    height: Number = fields.size(10.0, "Height")
-    centred: bool = fields.flag(False, "Centred", "The origin in the middle")
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
-class Circle(Node):
-    """A round outline about the origin."""
-
-    title: ClassVar[str] = "Circle"
-    radius: Number = fields.size(10.0, "Radius")
-    segments: Number | None = fields.segments()
-    tolerance: Number | None = fields.tolerance()
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
-class Polygon(Node):
-    """A closed outline of straight sides, with holes; it is filled where an odd number of loops goes round."""
-
-    title: ClassVar[str] = "Polygon"
-    points: tuple[tuple[Number, ...], ...] = fields.points("Points", flat=True)
-    loops: tuple[tuple[int, ...], ...] = fields.faces("Loops", "Each the indices of its points; none: all in one loop")
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
-class Extrude(Node):
-    """An outline in the plane z = 0, drawn up along z."""
-
-    title: ClassVar[str] = "Extrusion"
-    operands: ClassVar[tuple[int, int | None]] = (1, 1)
-    height: Number = fields.size(10.0, "Height")
-    twist: Number = fields.angle(0.0, "Twist", "From foot to top")
-    top_scale: Number = fields.factor(1.0, "Top scale", "Of the outline at the top; 0 makes a point", minimum=0.0)
-    centred: bool = fields.flag(False, "Centred", "The origin at half the height")
-    segments: Number | None = fields.segments()
-    tolerance: Number | None = fields.tolerance()
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
-class Revolve(Node):
-    """An outline turned about its y axis, which becomes z; what lies at x < 0 is left out."""
-
-    title: ClassVar[str] = "Revolution"
-    operands: ClassVar[tuple[int, int | None]] = (1, 1)
-    angle: Number = fields.angle(360.0, "Angle", minimum=0.0, above=True)
-    segments: Number | None = fields.segments()
-    tolerance: Number | None = fields.tolerance()
-
-
-OUTLINES: tuple[type[Node], ...] = (Rectangle, Circle, Polygon)

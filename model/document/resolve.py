@@ -18,6 +18,11 @@ class Resolved:
     values: dict[str, float]
     faults: dict[str, str]
     """Parameters that have no value, and why."""
+    profiles: tuple[Node, ...] = ()
+
+    @property
+    def standing(self) -> tuple[Node, ...]:
+        return self.solids + self.profiles
 
 
 class Resolver:
@@ -38,8 +43,11 @@ class Resolver:
         self._values, self._faults, self._definitions = values, faults, document.definitions
         definitions = {node.id: node for node in document.definitions}
         before, self._made = self._made, {}
-        solids = tuple(self._node(root, values, faults, definitions, before, same) for root in document.solids)
-        return Resolved(solids, values, faults)
+        solids, profiles = (
+            tuple(self._node(root, values, faults, definitions, before, same) for root in family)
+            for family in (document.solids, document.profiles)
+        )
+        return Resolved(solids, values, faults, profiles)
 
     def _node(
         self,

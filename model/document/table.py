@@ -7,7 +7,7 @@ import operator
 from collections.abc import Mapping
 from typing import Any
 
-from . import primitives as _primitives  # registers the kinds of the leaves
+from . import from_outlines, outlines, primitives  # which register their kinds
 from .colours import hex_colour
 from .document import Document, Parameter, ParameterSet, Section
 from .errors import Refusal
@@ -18,7 +18,7 @@ from .tree import FAMILIES, MAX_NODES, walk
 
 MAX_ID = 100
 _DEFAULTS: dict[type[Node], dict[str, Any]] = {}
-assert _primitives
+assert from_outlines and outlines and primitives
 
 
 def _default(kind: type[Node], name: str) -> Any:
@@ -169,7 +169,7 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
         changes: dict[str, Any] = {}
         for name, spec in specs.items():
             if name in row:
-                changes[name] = row[name] if spec.type == "text" else _value(row[name])
+                changes[name] = row[name] if spec.type in ("text", "letters") else _value(row[name])
         for name, wanted in (("name", str), ("note", str), ("visible", bool)):
             if name in row:
                 changes[name] = _expect(row[name], wanted, f"“{name}”")
@@ -194,7 +194,7 @@ def _step(row: Any) -> Any:
 
 def _value(value: Any, depth: int = 0) -> Any:
     if isinstance(value, list):
-        if depth == 2:
+        if depth == 3:
             raise Refusal("a list stands too deep in other lists")
         return tuple(_value(item, depth + 1) for item in value)
     if isinstance(value, str) and value.startswith("="):

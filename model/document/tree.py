@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Iterator
 from .document import Document
 from .errors import Refusal
 from .nodes import Instance, Node
+from .outlines import Outlines
 
 MAX_NODES = 1_000_000
 FAMILIES = ("solids", "profiles", "definitions")
@@ -96,11 +97,39 @@ def change(document: Document, node_id: str, function: Callable[[Node], Node | N
         return document
     for above, below in zip(reversed(nodes[:-1]), reversed(nodes[1:]), strict=True):
         new = above.with_(children=_swapped(above.children, below, new))
-    for family in FAMILIES:
+    return _with_roots(document, lambda root: new if root is nodes[0] else root)
+
+
+def _with_roots(document: Document, changed: Callable[[Node], Node | None]) -> Document:
+    """The document with its roots replaced, or taken out (None); one that has become an outline, or has ceased to be
+    one, goes to the end of its new family."""
+    changes: dict[str, tuple[Node, ...]] = {}
+    leaving: list[Node] = []
+    flat = Outlines(document.definitions)
+    for family in reversed(FAMILIES):  # definitions first: they tell what their instances are
         roots = getattr(document, family)
-        if any(root is nodes[0] for root in roots):
-            return document.with_(**{family: _swapped(roots, nodes[0], new)})
-    raise AssertionError(node_id)
+        kept: list[Node] = []
+        for old in roots:
+            new = changed(old)
+            if new is None:
+                continue
+            if new is not old and family != "definitions" and family != family_of(new, flat):
+                leaving.append(new)
+            else:
+                kept.append(new)
+        if len(kept) < len(roots) or any(a is not b for a, b in zip(kept, roots, strict=True)):
+            changes[family] = tuple(kept)
+            flat = Outlines(changes[family]) if family == "definitions" else flat
+    for root in leaving:
+        family = family_of(root, flat)
+        held = changes[family] if family in changes else getattr(document, family)
+        changes[family] = (*held, root)
+    return document.with_(**changes) if changes else document
+
+
+def family_of(root: Node, flat: Outlines) -> str:
+    """Where a root stands that is no definition."""
+    return "profiles" if root in flat else "solids"
 
 
 def _swapped(family: tuple[Node, ...], old: Node, new: Node | None) -> tuple[Node, ...]:
@@ -164,13 +193,7 @@ def change_each(document: Document, ids: Iterable[str] | str, function: Callable
             continue
         made = _over(node, [new.get(child.id, child) for child in node.children])
         new[node.id] = function(made) if node.id in wanted else made
-    changes: dict[str, tuple[Node, ...]] = {}
-    for family in FAMILIES:
-        roots = getattr(document, family)
-        kept = tuple(root for old in roots if (root := new.get(old.id, old)) is not None)
-        if len(kept) < len(roots) or any(a is not b for a, b in zip(kept, roots, strict=True)):
-            changes[family] = kept
-    return document.with_(**changes) if changes else document
+    return _with_roots(document, lambda root: new.get(root.id, root))
 
 
 def _over(node: Node, children: list[Node | None]) -> Node:
@@ -200,20 +223,28 @@ def check_room(above: Node, count: int) -> None:
 
 
 def put(document: Document, nodes: Iterable[Node], parent_id: str | None = None, index: int | None = None) -> Document:
-    """The document with the nodes as solids, or as operands of the parent, from `index` on (None: last).
+    """The document with the nodes as solids and profiles, or as operands of the parent, from `index` on (None: last).
 
-    Raises Refusal.
+    Without a parent the index is a place in the family of the first node, solids or profiles; nodes of the other one
+    come last in it. Raises Refusal.
     """
     new = tuple(nodes)
 
-    def family(old: tuple[Node, ...]) -> tuple[Node, ...]:
+    def family(old: tuple[Node, ...], new: tuple[Node, ...], index: int | None) -> tuple[Node, ...]:
         place = position(old, index)
         return (*old[:place], *new, *old[place:])
 
     if parent_id is None:
-        return document.with_(solids=family(document.solids))
+        flat = Outlines(document.definitions)
+        apart: dict[str, list[Node]] = {}
+        for node in new:
+            apart.setdefault(family_of(node, flat), []).append(node)
+        return document.with_(**{
+            name: family(getattr(document, name), tuple(nodes), index if place == 0 else None)
+            for place, (name, nodes) in enumerate(apart.items())
+        })  # fmt: skip
     check_room(find(document, parent_id), len(new))
-    return change(document, parent_id, lambda node: node.with_(children=family(node.children)))
+    return change(document, parent_id, lambda node: node.with_(children=family(node.children, new, index)))
 
 
 def insert(document: Document, node: Node, parent_id: str | None = None, index: int | None = None) -> Document:
@@ -233,7 +264,7 @@ def position(family: tuple[Node, ...], index: int | None) -> int:
 def index_of(document: Document, node_id: str) -> int:
     """The node's place among its siblings. Raises Refusal."""
     *above, chosen = trail(document, node_id)
-    families = (above[-1].children,) if above else (document.solids, document.profiles, document.definitions)
+    families = (above[-1].children,) if above else tuple(getattr(document, family) for family in FAMILIES)
     return next(i for family in families for i, node in enumerate(family) if node is chosen)
 
 
@@ -292,11 +323,24 @@ def next_number(document: Document) -> int:
 
 def unique_name(wanted: str, taken: Iterable[str]) -> str:
     """`wanted`, or with the first number behind it that makes it unlike all that are taken: Box, Box 2, Box 3."""
-    used = set(taken)
-    if wanted not in used:
-        return wanted
-    stem = re.sub(r" \d+$", "", wanted)
-    number = 2
-    while f"{stem} {number}" in used:
-        number += 1
-    return f"{stem} {number}"
+    return Names(taken).take(wanted)
+
+
+class Names:
+    """Names of many things, each unlike the others; see `unique_name`."""
+
+    def __init__(self, taken: Iterable[str] = ()) -> None:
+        self._used = set(taken)
+        self._next: dict[str, int] = {}
+
+    def take(self, wanted: str) -> str:
+        """`wanted`, or with a number behind it; it is taken then."""
+        name = wanted
+        if name in self._used:
+            stem = re.sub(r" \d+$", "", wanted)
+            number = self._next.get(stem, 2)  # all below are taken, and stay so
+            while (name := f"{stem} {number}") in self._used:
+                number += 1
+            self._next[stem] = number + 1
+        self._used.add(name)
+        return name

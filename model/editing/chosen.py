@@ -14,12 +14,17 @@ from .session import Session
 @dataclass(frozen=True, slots=True)
 class Chosen:
     """The selected nodes in the order of selection; for each the node above it (None for a root), its place among
-    its siblings, and whether it stands in a definition."""
+    its siblings, and the family of its root: solids, profiles or definitions."""
 
     nodes: tuple[Node, ...] = ()
     above: tuple[Node | None, ...] = ()
     places: tuple[int, ...] = ()
-    in_definition: tuple[bool, ...] = ()
+    families: tuple[str, ...] = ()
+
+    @property
+    def in_definition(self) -> tuple[bool, ...]:
+        """Whether they stand in a definition."""
+        return tuple(family == "definitions" for family in self.families)
 
 
 def chosen(session: Session) -> Chosen:
@@ -29,14 +34,14 @@ def chosen(session: Session) -> Chosen:
 @lru_cache(maxsize=2)
 def _looked_up(document: Document, selection: tuple[str, ...]) -> Chosen:
     wanted = set(selection)
-    found: dict[str, tuple[Node, Node | None, int, bool]] = {}
+    found: dict[str, tuple[Node, Node | None, int, str]] = {}
     for family in FAMILIES if wanted else ():
         roots = getattr(document, family)
         stack = [(root, None, place) for place, root in enumerate(roots)]
         while stack and len(found) < len(wanted):
             node, above, place = stack.pop()
             if node.id in wanted:
-                found[node.id] = (node, above, place, family == "definitions")
+                found[node.id] = (node, above, place, family)
             stack += [(child, node, i) for i, child in enumerate(node.children)]
     rows = [found[node_id] for node_id in selection if node_id in found]
     return Chosen(*(tuple(column) for column in zip(*rows, strict=True))) if rows else Chosen()

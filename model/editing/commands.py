@@ -5,12 +5,15 @@ The window adds its own (files, views) to the same table.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
+from ..document.from_outlines import FROM_OUTLINES, Extrude, Revolve
 from ..document.nodes import Difference, Instance, Intersection, Node
-from ..document.primitives import Box, Circle, Cone, Cylinder, Extrude, Halfspace, Rectangle, Revolve, Sphere, Torus
+from ..document.outlines import OUTLINES, Circle, Outlines, Polygon, Rectangle
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, Sphere, Torus
 from .chosen import chosen
 from .session import Session
 
@@ -48,20 +51,29 @@ def chosen_fault(fewest: int = 1, most: int | None = None) -> Callable[[Session]
     return fault
 
 
-def place_beside(session: Session) -> list[Any]:
-    """Where new nodes go, as the last arguments of `insert`.
+def place_beside(session: Session, flat: bool = False) -> list[Any]:
+    """Where new nodes go, as the last arguments of `insert`; `flat`: they are outlines.
 
-    Into a selected operation that has room, beside a selected operand, else (no arguments) they are solids.
+    Into a selected operation that has room for them, beside a selected operand, else (no arguments) they stand by
+    themselves.
     """
     if len(session.selection) != 1:
         return []
     looked = chosen(session)
     node, above = looked.nodes[0], looked.above[0]
-    if type(node).operands[1] is None and not isinstance(node, Instance):
+    outlines = Outlines(session.document.definitions)
+    if _takes(node, flat, outlines):
         return [node.id]
-    if above is not None and type(above).operands[1] is None:
+    if above is not None and _takes(above, flat, outlines):
         return [above.id, looked.places[0] + 1]
     return []
+
+
+def _takes(node: Node, flat: bool, outlines: Outlines) -> bool:
+    """Whether a node takes any number of outlines (`flat`) or of solids."""
+    if type(node).operands[1] is not None or isinstance(node, Instance):
+        return False
+    return (node in outlines or isinstance(node, FROM_OUTLINES)) == flat
 
 
 def _bounded_place(session: Session) -> list[Any]:
@@ -80,7 +92,8 @@ def _bounded_place(session: Session) -> list[Any]:
 def _add(kind: Callable[[], Node]) -> Callable[[Session], None]:
     def run(session: Session) -> None:
         node = kind()
-        place = _bounded_place(session) if isinstance(node, Halfspace) else place_beside(session)
+        bounded = isinstance(node, Halfspace)
+        place = _bounded_place(session) if bounded else place_beside(session, isinstance(node, OUTLINES))
         session.do("insert", node, *place, label=f"Add {node.title.lower()}")
 
     return run
@@ -94,14 +107,37 @@ def done(_: object) -> None:
     """Lets a call that answers stand where nothing is asked."""
 
 
-def _add_command(kind: type[Node], shortcut: str, tip: str, make: Callable[[], Node] | None = None) -> Command:
+def _add_command(
+    kind: type[Node], shortcut: str, tip: str, make: Callable[[], Node] | None = None, toolbar: bool = True
+) -> Command:
     word = kind.__name__.lower()
     return Command(f"add_{word}", kind.title, "Add", _add(make or kind), shortcut=shortcut, icon=word, tip=tip,
-                   toolbar=make is None)  # fmt: skip
+                   toolbar=toolbar and make is None)  # fmt: skip
 
 
 def _combine_command(kind: str, title: str, shortcut: str, tip: str, toolbar: bool = True) -> Command:
     return Command(kind, title, "Combine", _combine(kind, title), chosen_fault(), shortcut, kind, tip, toolbar)
+
+
+def _hexagon() -> Polygon:
+    corners = (math.radians(60 * i) for i in range(6))
+    return Polygon(points=tuple((round(10 * math.cos(a), 6), round(10 * math.sin(a), 6)) for a in corners))
+
+
+def _make_solid_command(kind: str, title: str, fewest: int, most: int | None, shortcut: str, tip: str) -> Command:
+    def fault(session: Session) -> str | None:
+        outlines = Outlines(session.document.definitions)
+        solid = next((node for node in chosen(session).nodes if node not in outlines), None)
+        if solid is not None:
+            return f"“{solid.label}” is no outline; select outlines"
+        count = len(session.selection)
+        if count < fewest or (most is not None and count > most):
+            return {1: "select an outline first", 2: "select two outlines or more"}[fewest] if most is None else (
+                "select two: an outline and the path to draw it along")  # fmt: skip
+        return None
+
+    return Command(kind, title, "Curve", lambda s: done(s.do("make_solid", kind, list(s.selection), label=title)),
+                   fault, shortcut, kind, tip)  # fmt: skip
 
 
 def _visibility(session: Session) -> None:
@@ -136,6 +172,14 @@ DOCUMENT_COMMANDS: tuple[Command, ...] = (
     _add_command(Halfspace, "Shift+H", "All on one side of a plane; it bounds what it is combined with"),
     _add_command(Extrude, "", "A rectangle drawn up", lambda: Extrude(children=(Rectangle(),))),
     _add_command(Revolve, "", "A circle turned about the z axis", lambda: Revolve(children=(Circle(radius=4).at(12),))),
+    _add_command(Rectangle, "", "An outline of four sides, flat", toolbar=False),
+    _add_command(Circle, "", "A round outline, flat", toolbar=False),
+    _add_command(Polygon, "", "An outline of straight sides, flat", _hexagon),
+    _make_solid_command("extrude", "Extrude", 1, None, "Shift+E", "Draw each selected outline up to a solid"),
+    _make_solid_command("revolve", "Revolve", 1, None, "Ctrl+R", "Turn each selected outline about its own y axis"),
+    _make_solid_command("sweep", "Sweep", 2, 2, "", "Draw the selected outline along the selected path"),
+    _make_solid_command("loft", "Loft", 2, None, "", "Stretch a solid over the selected outlines, in their order"),
+    _make_solid_command("pipe", "Pipe", 1, None, "", "A round bar along each selected path"),
     _combine_command("union", "Union", "Ctrl+U", "All that lies in any of the selected nodes"),
     _combine_command("difference", "Difference", "Ctrl+D", "The first selected node less the others"),
     _combine_command("intersection", "Intersection", "Ctrl+I", "What lies in all of the selected nodes"),

@@ -8,7 +8,7 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Node
 from ..document.placement import Placement
-from ..document.tree import outermost, trails, walk
+from ..document.tree import outermost, put, trails, walk
 from ..operations.fitting import steps_above, then
 
 
@@ -22,14 +22,15 @@ def isolation_fault(document: Document, ids: Sequence[str]) -> str | None:
 
 
 def isolated(document: Document, ids: Sequence[str]) -> Document:
-    """The document with these nodes as its only solids, each at its place in space (under an array: the first copy).
+    """The document with these nodes as its only solids and profiles, each at its place in space (under an array: the
+    first copy).
 
     A whole solid stays the very node that it is, unless it is hidden. Raises Refusal.
     """
     fault = isolation_fault(document, ids)
     if fault:
         raise Refusal(fault)
-    solids: list[Node] = []
+    roots: list[Node] = []
     for *way, node in trails(document, outermost(document, ids)).values():
         colour = node.colour or next((above.colour for above in reversed(way) if above.colour), None)
         if way:
@@ -37,5 +38,5 @@ def isolated(document: Document, ids: Sequence[str]) -> Document:
             node = node.with_(placement=placement, colour=colour, name=node.label, visible=True)
         elif not node.visible:
             node = node.with_(visible=True)
-        solids.append(node)
-    return document.with_(solids=tuple(solids))
+        roots.append(node)
+    return put(document.with_(solids=(), profiles=()), roots)

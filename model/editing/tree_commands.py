@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from ..document.from_outlines import Extrude, Revolve
 from ..document.kind_names import function_name
 from ..document.nodes import KINDS, Instance, Node
-from ..document.primitives import Extrude, Revolve
+from ..document.outlines import Outlines
 from ..document.tree import index_of, parent, walk
 from ..operations.structure import OF_SOLIDS
 from .chosen import chosen
@@ -68,10 +69,15 @@ def _siblings(session: Session) -> tuple[Node | None, list[int]]:
     """The operation that holds all that is selected, and their places in it, in order; no places where it does not."""
     looked = chosen(session)
     homes = {None if above is None else above.id for above in looked.above}
-    roots = any(above is None and inside for above, inside in zip(looked.above, looked.in_definition, strict=True))
-    if len(homes) != 1 or roots:
+    families = {family for above, family in zip(looked.above, looked.families, strict=True) if above is None}
+    if len(homes) != 1 or len(families) > 1 or "definitions" in families:
         return None, []
     return looked.above[0], sorted(looked.places)
+
+
+def _family(session: Session, above: Node | None) -> tuple[Node, ...]:
+    """The operands among which the selected nodes stand, or the roots."""
+    return getattr(session.document, chosen(session).families[0]) if above is None else above.children
 
 
 def _siblings_fault(session: Session) -> str | None:
@@ -84,7 +90,7 @@ def _shift_fault(by: int) -> Callable[[Session], str | None]:
         if wrong:
             return wrong
         above, places = _siblings(session)
-        count = len(session.document.solids if above is None else above.children)
+        count = len(_family(session, above))
         ends = range(len(places)) if by < 0 else range(count - len(places), count)
         return ("it is the first already" if by < 0 else "it is the last already") if places == list(ends) else None
 
@@ -109,16 +115,19 @@ def _out_fault(session: Session) -> str | None:
 def _out(session: Session) -> None:
     above, _ = _siblings(session)
     assert above is not None
-    outer, place = parent(session.document, above.id), index_of(session.document, above.id) + 1
-    in_definition = any(root is above for root in session.document.definitions)
-    target = (None,) if in_definition else (None if outer is None else outer.id, place)
+    document = session.document
+    outer, place = parent(document, above.id), index_of(document, above.id) + 1
+    flat = Outlines(document.definitions)
+    # Among the roots it stands behind one of its own family only: outlines apart from solids, neither in definitions.
+    in_definition = any(root is above for root in document.definitions)
+    beside = outer is not None or (not in_definition and (above in flat) == (chosen(session).nodes[0] in flat))
+    target = (None if outer is None else outer.id, place) if beside else (None,)
     session.do("relocate", _in_order(session), *target, label="Move out", select=session.selection)
 
 
 def _sibling_above(session: Session) -> Node | None:
     above, places = _siblings(session)
-    family = session.document.solids if above is None else above.children
-    return family[places[0] - 1] if places and places[0] > 0 else None
+    return _family(session, above)[places[0] - 1] if places and places[0] > 0 else None
 
 
 def _in_fault(session: Session) -> str | None:

@@ -10,6 +10,7 @@ from ..document.errors import Refusal
 from ..document.tree import chosen_solids
 from ..solid.results import SolidResult, arrays_of, evaluate_document
 from ..solid.tessellation import DEFAULT_TOLERANCE
+from .curves_out import is_drawing_ending, outlines_to_write, write_curves
 from .meshes_out import OutSolid, check_ending, write_meshes
 
 
@@ -20,11 +21,14 @@ def export_document(
     solid: str | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> tuple[SolidResult, ...]:
-    """Write the visible solids, or the one of this name, in the format of the path's ending.
+    """Write the visible solids, or the one of this name, in the format of the path's ending; to SVG and DXF outlines.
 
     The result is what was evaluated; empty solids are left out of the file. Raises Refusal, and then writes nothing,
     where a solid failed or nothing is left to write.
     """
+    if is_drawing_ending(path):
+        write_curves(path, outlines_to_write(document, solid), tolerance)
+        return ()
     check_ending(path)
     results, solids = solids_to_write(document, tolerance, solid, progress)
     write_meshes(path, solids)

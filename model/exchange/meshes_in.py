@@ -1,4 +1,4 @@
-"""Mesh files as documents: which reader a file needs, by its content first, and the parts that it holds."""
+"""Foreign files as documents: which reader a file needs, by its content first, and the parts that it holds."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from ..document.tree import unique_name
 from ..project.assets import AssetStore, default_store
 from ..project.disk import one_line, read_whole, reason_of
 from ..project.project_file import open_project
+from .drawings import drawings_in
 from .gltf import read_gltf
 from .obj import Fetch, read_obj
 from .off import HEADER, read_off
@@ -38,6 +39,7 @@ FORMATS: dict[str, tuple[str, Callable[[bytes], list[Part]]]] = {
     "gltf": ("glTF", read_gltf),
 }
 """By ending: what the format is called and what reads it."""
+DRAWINGS = ("svg", "svgz", "dxf")
 UNFORESEEN = "is damaged in a way that this program did not foresee; save it again with the program that made it"
 _HEAD = 4096
 
@@ -107,7 +109,7 @@ def format_of(data: bytes, ending: str) -> str | None:
 
 
 def read_any(path: str | os.PathLike[str], store: AssetStore | None = None) -> Document:
-    """The document of a project file or of any mesh file. Raises Refusal."""
+    """The document of a project file, of any mesh file or of a drawing. Raises Refusal."""
     return open_project(path, store) if _is_project(path) else import_file(path, store)
 
 
@@ -127,13 +129,19 @@ def _is_project(path: str | os.PathLike[str]) -> bool:
 
 
 def import_file(path: str | os.PathLike[str], store: AssetStore | None = None) -> Document:
-    """A document that holds each solid of a mesh file as an imported mesh; the file itself is kept. Raises Refusal."""
+    """A document that holds each solid of a mesh file as an imported mesh, or each shape of a drawing as an outline.
+
+    The mesh file itself is kept; of a drawing the curves. Raises Refusal.
+    """
     path = Path(path)
     store = store or default_store()
     data = read_whole(path, MAX_BYTES)
     file_format = format_of(data, path.suffix)
     if file_format is None:
-        known = ", ".join((PROJECT, *(f".{ending}" for ending in FORMATS)))
+        drawing_format = drawings_in.format_of(data, path.suffix)
+        if drawing_format is not None:
+            return _drawing(data, drawing_format, path.stem)
+        known = ", ".join((PROJECT, *(f".{ending}" for ending in (*FORMATS, *DRAWINGS))))
         raise Refusal(f"is of no kind that can be opened; known are {known}" if data else "is empty")
     parts = _read(data, file_format, _beside(path))
     sha = store.put(data)
@@ -160,6 +168,14 @@ def import_file(path: str | os.PathLike[str], store: AssetStore | None = None) -
 _CACHE_BYTES = 256_000_000
 _cache: OrderedDict[tuple[str, str], tuple[Part, ...]] = OrderedDict()
 _lock = threading.Lock()
+
+
+def _drawing(data: bytes, drawing_format: str, name: str) -> Document:
+    from .drawings.outlines_in import document_of_drawing
+
+    if len(data) > drawings_in.MAX_BYTES:
+        raise Refusal(f"has {len(data):,} bytes; of drawings at most {drawings_in.MAX_BYTES:,} are read")
+    return document_of_drawing(drawings_in.read_data(data, drawing_format, None), name)
 
 
 def parts_of_asset(sha: str, file_format: str, store: AssetStore | None = None) -> tuple[Part, ...]:

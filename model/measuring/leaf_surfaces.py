@@ -8,21 +8,10 @@ from functools import singledispatch
 import numpy as np
 from numpy.typing import NDArray
 
+from ..document.from_outlines import Extrude, Revolve
 from ..document.nodes import Node
-from ..document.primitives import (
-    Box,
-    Circle,
-    Cone,
-    Cylinder,
-    Extrude,
-    Halfspace,
-    Polygon,
-    Polyhedron,
-    Rectangle,
-    Revolve,
-    Sphere,
-    Torus,
-)
+from ..document.outlines import Circle, Polygon, Rectangle
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, Polyhedron, Sphere, Torus
 from .surface_kinds import ConeSurface, CylinderSurface, Plane, SphereSurface, TorusSurface, Vector
 from .vectors import three
 

@@ -10,8 +10,19 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Instance, Node
 from ..document.placement import Placement
-from ..document.primitives import OUTLINES
-from ..document.tree import FAMILIES, change, change_each, find, listed, next_number, numbered, trail, unique_name, walk
+from ..document.tree import (
+    FAMILIES,
+    Names,
+    change,
+    change_each,
+    find,
+    listed,
+    next_number,
+    numbered,
+    trail,
+    unique_name,
+    walk,
+)
 from .parameters import declaring
 
 
@@ -25,18 +36,16 @@ def link(document: Document, ids: Iterable[str] | str) -> Document:
         node = find(document, node_id)
         if isinstance(node, Instance):
             raise Refusal(f"“{node.label}” is an instance already; duplicate it to use it once more")
-        if isinstance(node, OUTLINES):
-            raise Refusal(f"“{node.label}” is an outline; link what is made of it")
         if any(root is node for root in document.definitions):
             raise Refusal(f"“{node.label}” is a definition already; duplicate one of its instances to use it once more")
         kept = {name: getattr(node, name) for name in ("name", "placement", "colour", "visible")}
         looks = tuple((below.colour, below.visible) for below in walk(*node.children))
         shared = made.setdefault((type(node), node.shape_digest, looks), node_id)
         instance = Instance(id=f"n{next_number(document)}", definition=shared, **kept)
-        document = change(document, node_id, lambda node, instance=instance: instance)
-        if shared == node_id:
+        if shared == node_id:  # first, because it tells what its instance is
             definition = node.with_(placement=Placement(), colour=None, visible=True, name=node.label)
             document = document.with_(definitions=(*document.definitions, definition))
+        document = change(document, node_id, lambda node, instance=instance: instance)
     return document
 
 
@@ -87,11 +96,10 @@ def insert_document(document: Document, other: Document) -> Document:
     declaring(document, [node.expressions() for node in walk(*other.roots)])
     roots = numbered(other.roots, next_number(document))
     renamed = {old.id: new.id for old, new in zip(other.roots, roots, strict=True)}
-    taken = {root.name for root in document.solids}
+    names = Names(root.name for root in document.standing)
     named = []
-    for root in roots[: len(other.solids)]:
-        name = unique_name(root.label, taken)
-        taken.add(name)
+    for root in roots[: len(other.standing)]:
+        name = names.take(root.label)
         named.append(root if root.name == name else root.with_(name=name))
     coming = iter((*named, *roots[len(named) :]))
     changes = {family: (*getattr(document, family), *(next(coming) for _ in getattr(other, family)))

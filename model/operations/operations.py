@@ -7,16 +7,44 @@ OPERATIONS is the list of all.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Container, Sequence
 from typing import Any
 
 from ..document.colours import hex_colour
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Instance, field_specs
+from ..document.outlines import Outlines
 from ..document.tree import change, change_each, find, listed
 from .arranging import shift
+from .curves.bending import bend_segment
+from .curves.contours import (
+    add_contour,
+    break_path,
+    close_contours,
+    join_nodes,
+    reverse_contours,
+    set_segments,
+    split_outline,
+)  # fmt: skip
+from .curves.control_points import delete_points, insert_point, move_points, place_points, set_weights
+from .curves.conversion import convert_to_bspline, convert_to_path
+from .curves.joints import harmonise_joints, match_curvature, smooth_joints
+from .curves.knots import elevate_degree, insert_knot, reduce_degree, refine_knots, remove_knot, set_knot
+from .curves.node_places import align_nodes, distribute_nodes, mirror_outline
+from .curves.nodes import (
+    delete_nodes,
+    insert_node,
+    move_handle,
+    move_nodes,
+    place_nodes,
+    set_handle,
+    set_joints,
+    transform_nodes,
+)  # fmt: skip
+from .curves.outline_areas import combine_outlines, offset_outline, stroke_outline
 from .linking import check_definitions, insert_document, link, unlink
+from .outlining import make_solid
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
 from .parameters import declaring, delete_parameter, rename_parameter, reorder_parameter, set_parameter
 from .pasting import paste
@@ -27,13 +55,10 @@ from .structure import change_kind, combine, delete, dissolve, insert, replace
 
 
 def rename(document: Document, node_id: str, name: str) -> Document:
-    """Give a node a name; solids have names of their own."""
+    """Give a node a name; solids and profiles have names of their own."""
     name = " ".join(str(name).split())
-    if any(root.id == node_id for root in document.solids):
-        if not name:
-            raise Refusal("a solid needs a name")
-        if any(root.name == name and root.id != node_id for root in document.solids):
-            raise Refusal(f"there is a solid called “{name}” already")
+    if any(root.id == node_id for root in document.standing):
+        _check_name(name, {root.name for root in document.standing if root.id != node_id}, document)
     return change(document, node_id, lambda node: node if node.name == name else node.with_(name=name))
 
 
@@ -43,17 +68,22 @@ def rename_each(document: Document, ids: Sequence[str] | str, pattern: str) -> D
     if words and "#" not in words and len(wanted) > 1:
         words += " #"
     names = {node_id: words.replace("#", str(number)) for number, node_id in enumerate(wanted, 1)}
-    taken = {root.name for root in document.solids if root.id not in names}
-    for root in document.solids:
-        name = names.get(root.id, root.name)
-        if not name:
-            raise Refusal("a solid needs a name")
-        if root.id in names and name in taken:
-            raise Refusal(f"there is a solid called “{name}” already")
-        taken.add(name)
+    taken = {root.name for root in document.standing if root.id not in names}
+    for root in document.standing:
+        if root.id in names:
+            _check_name(names[root.id], taken, document)
+            taken.add(names[root.id])
     return change_each(
         document, wanted, lambda node: node if node.name == names[node.id] else node.with_(name=names[node.id])
     )
+
+
+def _check_name(name: str, taken: Container[str], document: Document) -> None:
+    if not name:
+        raise Refusal("a solid, or an outline that stands by itself, needs a name")
+    if name in taken:
+        flat = any(root.name == name for root in document.profiles)
+        raise Refusal(f"there is {'an outline' if flat else 'a solid'} called “{name}” already")
 
 
 def set_field(document: Document, node_id: str, field: str, value: Any) -> Document:
@@ -86,6 +116,10 @@ def _with_fields(
     new = node.with_(**changed)
     if isinstance(node, Instance):
         check_definitions(document, [new], node_id)
+        flat = Outlines(document.definitions)
+        if (node in flat) != (new in flat):
+            raise Refusal(f"“{node.label}” is {'an outline' if node in flat else 'a solid'}, and what it should be an "
+                          "instance of is not")  # fmt: skip
     return change(declaring(document, list(checked.values())), node_id, lambda node: new)
 
 
@@ -110,11 +144,18 @@ def set_note(document: Document, node_id: str, note: str) -> Document:
 OPERATIONS: dict[str, Callable[..., Document]] = {
     function.__name__: function
     for function in (
-        insert, insert_document, paste, replace, delete, combine, dissolve, change_kind, relocate, copy_to, duplicate,
-        reorder, promote, swap, link, unlink, rename, rename_each, set_field, set_fields, place, move, turn, scale,
-        shift, set_colour, set_visible, set_note,
+        insert, insert_document, paste, replace, delete, combine, make_solid, dissolve, change_kind, relocate, copy_to,
+        duplicate, reorder, promote, swap, link, unlink, rename, rename_each, set_field, set_fields, place, move, turn,
+        scale, shift, set_colour, set_visible, set_note,
         set_parameter, rename_parameter, delete_parameter, reorder_parameter, set_parameters,
         save_set, put_sets, apply_set, rename_set, delete_set,
         add_section, set_section, rename_section, delete_section,
+        bend_segment,
+        combine_outlines, offset_outline, stroke_outline,
+        convert_to_path, convert_to_bspline, move_nodes, place_nodes, move_handle, set_handle, set_joints, insert_node,
+        delete_nodes, transform_nodes, align_nodes, distribute_nodes, mirror_outline, smooth_joints, harmonise_joints,
+        match_curvature, break_path, join_nodes, close_contours, reverse_contours, set_segments, split_outline,
+        add_contour, move_points, place_points, insert_point, delete_points, set_weights, set_knot, insert_knot,
+        remove_knot, refine_knots, elevate_degree, reduce_degree,
     )
 }  # fmt: skip

@@ -8,15 +8,16 @@ from ..document.document import Document, Parameter
 from ..document.errors import Refusal
 from ..document.expression import Expression, expressions_in
 from ..document.nodes import Instance, Node
+from ..document.outlines import Outlines
 from ..document.placement import Placement
-from ..document.tree import change_each, next_number, numbered, outermost, put, trail, trails, walk
-from .fitting import check_fit, named_apart, steps_above, then
+from ..document.tree import change_each, family_of, next_number, numbered, outermost, put, trail, trails, walk
+from .fitting import carried_into, check_fit, check_tree, named_apart, steps_above
 from .linking import check_definitions, used_definitions
 from .parameters import declaring
 
 
 def clip(document: Document, ids: Sequence[str]) -> Document:
-    """The nodes as solids at their places in space, with the definitions and parameters that they need.
+    """The nodes as solids and profiles at their places in space, with the definitions and parameters that they need.
 
     Of a definition it is an instance.
     """
@@ -37,8 +38,13 @@ def clip(document: Document, ids: Sequence[str]) -> Document:
         stack += new
     definitions = tuple(root for root in document.definitions if root.id in needed)
     # An instance of a node that is copied too would give its id away twice.
-    solids = numbered(nodes, next_number(document))
-    return Document(solids=solids, definitions=definitions, parameters=_used_parameters(document, solids + definitions))
+    roots = numbered(nodes, next_number(document))
+    flat = Outlines(document.definitions)
+    families: dict[str, list[Node]] = {"solids": [], "profiles": []}
+    for root in roots:
+        families[family_of(root, flat)].append(root)
+    return Document(solids=tuple(families["solids"]), profiles=tuple(families["profiles"]), definitions=definitions,
+                    parameters=_used_parameters(document, roots + definitions))  # fmt: skip
 
 
 def _used_parameters(document: Document, roots: tuple[Node, ...]) -> tuple[Parameter, ...]:
@@ -55,7 +61,8 @@ def _used_parameters(document: Document, roots: tuple[Node, ...]) -> tuple[Param
 
 
 def paste(document: Document, other: Document, parent_id: str | None = None, index: int | None = None) -> Document:
-    """Put the solids of another document into this one, as operands of `parent_id` at `index` (None: last).
+    """Put the solids and profiles of another document into this one, as operands of `parent_id` at `index` (None:
+    last).
 
     They keep their place in space. Definitions that this document has already are shared; parameters of the same
     name keep the value that they have here.
@@ -68,7 +75,7 @@ def paste(document: Document, other: Document, parent_id: str | None = None, ind
     declaring(document, [node.expressions() for node in walk(*other.roots)])
     here = {root.id: root for root in document.definitions}
     coming = _unlike(other.definitions, here)
-    roots = numbered((*coming, *other.solids), next_number(document))
+    roots = numbered((*coming, *other.standing), next_number(document))
     renamed = {root.id: root.id for root in other.definitions}
     renamed |= {old.id: new.id for old, new in zip(coming, roots, strict=False)}
     # One whose definition is missing must not come upon a node of this document by chance.
@@ -76,17 +83,19 @@ def paste(document: Document, other: Document, parent_id: str | None = None, ind
     instances = [node.id for node in walk(*roots) if isinstance(node, Instance)]
     carrier = change_each(carrier, instances, lambda node: node.with_(
         definition=renamed.get(node.definition, "")))  # type: ignore[attr-defined]  # fmt: skip
-    new, solids = carrier.definitions[: len(coming)], list(carrier.definitions[len(coming) :])
+    new, nodes = carrier.definitions[: len(coming)], list(carrier.definitions[len(coming) :])
     document = document.with_(definitions=(*document.definitions, *new))
     way = () if parent_id is None else trail(document, parent_id)
-    for node in solids:
-        check_fit(way[-1] if way else None, node)
-    check_definitions(document, solids, parent_id)
+    flat = Outlines(document.definitions)
+    for node in nodes:
+        check_tree(node, flat)
+        check_fit(way[-1] if way else None, node, flat)
+    check_definitions(document, nodes, parent_id)
     if not way:
-        solids = named_apart(document, solids)
+        nodes = named_apart(document, nodes)
     elif way[0].id not in here:
-        solids = [_carried_into(node, way) for node in solids]
-    return put(document, solids, parent_id, index)
+        nodes = [carried_into(node, steps_above(way)) for node in nodes]
+    return put(document, nodes, parent_id, index)
 
 
 def _unlike(definitions: Sequence[Node], here: Mapping[str, Node]) -> list[Node]:
@@ -96,12 +105,3 @@ def _unlike(definitions: Sequence[Node], here: Mapping[str, Node]) -> list[Node]
     while more := {node_id for node_id, used in uses.items() if used & unlike} - unlike:
         unlike |= more
     return [root for root in definitions if root.id in unlike]
-
-
-def _carried_into(node: Node, way: Sequence[Node]) -> Node:
-    """The node, placed in the world, with the placement that it needs below `way`; what cancels out is left out."""
-    steps, above = list(node.placement.steps), steps_above(way)
-    while steps and above and steps[-1] == above[-1]:
-        del steps[-1], above[-1]
-    back = [undo for step in reversed(above) for undo in step.inverse()]
-    return node.with_(placement=then(Placement(), [*steps, *back]))

@@ -7,10 +7,12 @@ from collections.abc import Sequence
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Instance, Node
+from ..document.outlines import Outlines
 from ..document.tree import (
     change,
     change_each,
     check_room,
+    family_of,
     find,
     listed,
     next_number,
@@ -21,31 +23,36 @@ from ..document.tree import (
     put,
     trail,
     trails,
-    unique_name,
 )
-from .fitting import carried, check_fit, check_free, named_apart
+from .fitting import carried, check_fit, check_free, check_left, named_apart, root_name
 from .linking import check_definitions
 
 
 def relocate(document: Document, ids: Sequence[str], parent_id: str | None, index: int | None = None) -> Document:
     """Move nodes to another place in the tree, before the sibling now at `index` (None: last).
 
-    They keep their place in space.
+    They keep their place in space. Among the roots the index is a place in the family of the first node, solids or
+    profiles; nodes of the other one come last in it.
     """
     ids = outermost(document, ids)
     way = () if parent_id is None else trail(document, parent_id)
-    if any(node.id in ids for node in way):
+    moved = set(ids)
+    if any(node.id in moved for node in way):
         raise Refusal("a node cannot be moved into itself")
     check_free(document, ids)
     above = way[-1] if way else None
-    nodes = [carried(document, old_way, way) for old_way in trails(document, ids).values()]
+    old_ways = trails(document, ids)
+    nodes = [carried(document, old_way, way) for old_way in old_ways.values()]
+    flat = Outlines(document.definitions)
     for node in nodes:
-        check_fit(above, node)
+        check_fit(above, node, flat)
+    check_left(old_ways.values(), flat, above)
     check_definitions(document, nodes, parent_id, known=False)
-    family = document.solids if above is None else above.children
+    home = family_of(nodes[0], flat) if nodes else "solids"
+    family = getattr(document, home) if above is None else above.children
     place = position(family, index)
-    place -= sum(member.id in ids for member in family[:place])
-    stay = [member for member in family if member.id not in ids]
+    place -= sum(member.id in moved for member in family[:place])
+    stay = [member for member in family if member.id not in moved]
     order = [*stay[:place], *nodes, *stay[place:]]
     if len(order) == len(family) and all(a is b for a, b in zip(order, family, strict=True)):
         return document
@@ -64,8 +71,9 @@ def copy_to(document: Document, ids: Sequence[str], parent_id: str | None, index
     roots = {root.id for root in document.definitions}
     old_ways = trails(document, ids)
     nodes = [Instance(definition=i) if i in roots else carried(document, old_ways[i], way) for i in ids]
+    flat = Outlines(document.definitions)
     for node in nodes:
-        check_fit(above, node)
+        check_fit(above, node, flat)
     check_definitions(document, nodes, parent_id, known=False)
     copies = numbered(nodes, next_number(document))
     if above is None:
@@ -83,8 +91,10 @@ def reorder(document: Document, ids: Sequence[str], by: int) -> Document:
     chosen = set(wanted)
     above = [way[-2] if len(way) > 1 else None for way in trails(document, wanted).values()]
     if None in above:
-        solids = _shifted(document.solids, chosen, by)
-        document = document if solids is document.solids else document.with_(solids=solids)
+        for family in ("solids", "profiles"):
+            old = getattr(document, family)
+            new = _shifted(old, chosen, by)
+            document = document if new is old else document.with_(**{family: new})
 
     def shifted(node: Node) -> Node:
         children = _shifted(node.children, chosen, by)
@@ -123,15 +133,17 @@ def swap(document: Document, one_id: str, other_id: str) -> Document:
         raise Refusal("two nodes change places, and neither may stand in the other")
     check_free(document, pair)
     ways = trails(document, pair)
+    flat = Outlines(document.definitions)
+    if len({family_of(way[-1], flat) for way in ways.values()}) > 1:
+        raise Refusal("an outline and a solid cannot change places: one is flat, the other is not")
     new: dict[str, Node] = {}
     for node_id, stranger in zip(reversed(pair), pair, strict=True):
         way = ways[stranger][:-1]
         node = carried(document, ways[node_id], way)
-        check_fit(way[-1] if way else None, node)
+        check_fit(way[-1] if way else None, node, flat)
         check_definitions(document, [node], way[-1].id if way else None, known=False)
         if not way:
-            taken = {root.name for root in document.solids if root.id not in pair}
-            node = node.with_(name=unique_name(node.label, taken))
+            node = node.with_(name=root_name(document, node.label, pair))
         new[stranger] = node
     return change_each(document, pair, lambda node: new[node.id])
 
@@ -140,22 +152,22 @@ def duplicate(document: Document, ids: Sequence[str]) -> Document:
     """Copy nodes, each beside its original."""
     ways = trails(document, outermost(document, ids))
     above: dict[str, list[Node]] = {}
+    definitions = {root.id for root in document.definitions}
     for *over, node in ways.values():
-        if not over and any(root is node for root in document.definitions):
+        if not over and node.id in definitions:
             raise Refusal(f"“{node.label}” is a definition; duplicate one of its instances")
-        check_fit(over[-1] if over else None, node)
         if over:
             above.setdefault(over[-1].id, []).append(over[-1])
     for same in above.values():
         check_room(same[0], len(same))
     copies = numbered([way[-1] for way in ways.values()], next_number(document))
     beside = dict(zip(ways, copies, strict=True))
-    solids = [node_id for node_id, way in ways.items() if len(way) == 1]
-    beside |= zip(solids, named_apart(document, [beside[node_id] for node_id in solids]), strict=True)
+    roots = [node_id for node_id, way in ways.items() if len(way) == 1]
+    beside |= zip(roots, named_apart(document, [beside[node_id] for node_id in roots]), strict=True)
 
     def doubled(family: tuple[Node, ...]) -> tuple[Node, ...]:
         return tuple(one for node in family for one in (node, beside.get(node.id)) if one is not None)
 
-    if solids:
-        document = document.with_(solids=doubled(document.solids))
+    if roots:
+        document = document.with_(solids=doubled(document.solids), profiles=doubled(document.profiles))
     return change_each(document, above, lambda node: node.with_(children=doubled(node.children)))

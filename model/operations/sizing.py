@@ -10,20 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..document.expression import Expression, Number
+from ..document.from_outlines import Extrude
 from ..document.nodes import LinearArray, Mirror, Node, field_specs
+from ..document.outlines import Circle, Polygon, Rectangle
 from ..document.placement import unit
-from ..document.primitives import (
-    Box,
-    Circle,
-    Cone,
-    Cylinder,
-    Extrude,
-    Halfspace,
-    Polygon,
-    Rectangle,
-    Sphere,
-    Torus,
-)
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, Sphere, Torus
 
 Vector = tuple[float, float, float]
 

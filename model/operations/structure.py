@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 from ..document.document import Document
 from ..document.errors import Refusal
+from ..document.from_outlines import Extrude, Revolve, Sweep
 from ..document.kind_names import function_name
 from ..document.nodes import (
     KINDS,
@@ -22,12 +23,15 @@ from ..document.nodes import (
     Union,
     field_specs,
 )
-from ..document.primitives import OUTLINES, Extrude, Revolve
+from ..document.outlines import Outlines
+from ..document.placement import Placement, Step, affine
 from ..document.tree import (
+    FAMILIES,
+    Names,
     change,
     change_each,
+    family_of,
     find,
-    index_of,
     listed,
     next_number,
     numbered,
@@ -36,27 +40,38 @@ from ..document.tree import (
     put,
     trail,
     trails,
-    unique_name,
     walk,
 )
-from .fitting import carried, check_fit, check_free, solid_name, steps_of, then
+from .fitting import (
+    carried,
+    carried_into,
+    check_fit,
+    check_free,
+    check_left,
+    check_tree,
+    lies_flat,
+    root_name,
+    steps_of,
+    then,
+)
 from .linking import check_definitions
 from .parameters import declaring
 
 OF_SOLIDS: tuple[type[Node], ...] = (
     Union, Difference, Intersection, Hull, Minkowski, LinearArray, PolarArray, Mirror,
 )  # fmt: skip
-"""The operations that take solids."""
+"""The operations that take solids; all but the hull and the Minkowski sum take outlines instead, too."""
 
 
 def insert(document: Document, node: Node, parent_id: str | None = None, index: int | None = None) -> Document:
-    """Add a solid, or an operand of `parent_id` at `index` (None: last), and the parameters declared in it."""
+    """Add a solid or an outline, or an operand of `parent_id` at `index` (None: last), and the parameters declared in
+    it."""
     document, fresh = _coming(document, node, parent_id)
     above = None if parent_id is None else find(document, parent_id)
     if above is None:
-        fresh = fresh.with_(name=solid_name(document, fresh.label))
+        fresh = fresh.with_(name=root_name(document, fresh.label))
     after = put(document, (fresh,), parent_id, index)
-    check_fit(above, fresh)
+    check_fit(above, fresh, Outlines(document.definitions))
     return after
 
 
@@ -65,10 +80,10 @@ def replace(document: Document, node_id: str, node: Node) -> Document:
     old, above = find(document, node_id), parent(document, node_id)
     check_free(document, [node_id])
     document, fresh = _coming(document, node, None if above is None else above.id)
-    check_fit(above, fresh)
+    check_fit(above, fresh, Outlines(document.definitions))
     name = fresh.name or old.name
     if above is None:
-        name = unique_name(name, [root.name for root in document.solids if root.id != node_id])
+        name = root_name(document, name, [node_id])
     return change(document, node_id, lambda old: fresh.with_(name=name))
 
 
@@ -80,15 +95,15 @@ def _coming(document: Document, node: Node, parent_id: str | None) -> tuple[Docu
     for part in walk(fresh):
         if isinstance(part, Broken) or (isinstance(part, Instance) and part.children):
             raise Refusal(f"“{part.label}” stands in resolved trees only, not in a document")
-        for child in part.children:
-            check_fit(part, child)
     check_definitions(document, [fresh], parent_id)
+    check_tree(fresh, Outlines(document.definitions))
     return declaring(document, [part.expressions() for part in walk(fresh)]), fresh
 
 
 def delete(document: Document, ids: Sequence[str]) -> Document:
     """Take nodes out of the document."""
     ids = outermost(document, ids)
+    check_left(trails(document, ids).values(), Outlines(document.definitions))
     after = change_each(document, ids, lambda node: None)
     gone = {root.id for root in document.definitions} - {root.id for root in after.definitions}
     for node in walk(*after.roots) if gone else ():
@@ -110,20 +125,30 @@ def combine(document: Document, kind: str, ids: Sequence[str], name: str = "") -
     if not ids:
         raise Refusal(f"select what the {wanted.title.lower()} should take")
     ways = trails(document, ids)
-    if any(isinstance(way[-1], OUTLINES) for way in ways.values()):
+    flat = Outlines(document.definitions)
+    flats = sum(way[-1] in flat for way in ways.values())
+    if flats and wanted in (Hull, Minkowski):
         raise Refusal(f"an outline is flat; a {wanted.title.lower()} takes solids")
+    if 0 < flats < len(ways):
+        raise Refusal("outlines are flat, and some of these are solids: extrude the outlines first")
     check_free(document, ids)
     *home, _ = ways[ids[0]]
     above = home[-1] if home else None
+    check_left(list(ways.values())[1:], flat, above)
     nodes = [carried(document, way, tuple(home)) for way in ways.values()]
     check_definitions(document, nodes, ids[0], known=False)
     number = next_number(document)
+    plane = Placement()
+    if flats and above is None and not lies_flat(nodes[0].placement):  # joined in the work plane of the first
+        plane = nodes[0].placement
+        nodes = [carried_into(node, plane.steps) for node in nodes]
     most = wanted.operands[1]
     if most is not None and len(nodes) > most:
         nodes = [Union(id=f"n{number + 1}", children=tuple(nodes))]
-    new = wanted(id=f"n{number}", name=" ".join(str(name).split()), children=tuple(nodes))
+    new = wanted(id=f"n{number}", name=" ".join(str(name).split()), children=tuple(nodes), placement=plane)
     if above is None:
-        new = new.with_(name=unique_name(new.label, [root.name for root in document.solids if root.id not in ids]))
+        new = new.with_(name=root_name(document, new.label, ids))
+    check_fit(above, new, flat)
     return change_each(document, ids, lambda node: new if node.id == ids[0] else None)
 
 
@@ -140,30 +165,42 @@ def _dissolved(document: Document, node_id: str) -> Document:
     if not node.children:
         raise Refusal(f"“{node.label}” has no operands to set free")
     check_free(document, [node_id])
+    flat = Outlines(document.definitions)
     for child in node.children:
-        check_fit(above, child)
+        check_fit(above, child, flat)
     most = None if above is None else type(above).operands[1]
     if above is not None and most is not None and len(above.children) - 1 + len(node.children) > most:
         raise Refusal(f"“{above.label}” takes only {most} operand{'' if most == 1 else 's'}")
     steps = steps_of(node)
+    section = node.children[0] if isinstance(node, Sweep) else None
     freed = [
         child.with_(
-            placement=then(child.placement, steps),
+            placement=_across(document, child, steps) if child is section else then(child.placement, steps),
             colour=child.colour or node.colour,
             visible=child.visible and node.visible,
         )
         for child in node.children
     ]
-    if above is None:
-        taken = {root.name for root in document.solids if root.id != node_id}
-        for i, child in enumerate(freed):
-            freed[i] = child.with_(name=unique_name(child.label, taken))
-            taken.add(freed[i].name)
-    family, place = (document.solids if above is None else above.children), index_of(document, node_id)
-    new = (*family[:place], *freed, *family[place + 1 :])
-    if above is None:
-        return document.with_(solids=new)
-    return change(document, above.id, lambda above: above.with_(children=new))
+    if above is not None:
+        place = next(i for i, child in enumerate(above.children) if child is node)
+        new = (*above.children[:place], *freed, *above.children[place + 1 :])
+        return change(document, above.id, lambda above: above.with_(children=new))
+    names = Names(root.name for root in document.standing if root is not node)
+    freed = [child.with_(name=names.take(child.label)) for child in freed]
+    home = next(family for family in FAMILIES if any(root is node for root in getattr(document, family)))
+    place = next(i for i, root in enumerate(getattr(document, home)) if root is node)
+    without = change(document, node_id, lambda node: None)
+    return put(without, freed, None, place if home == family_of(freed[0], flat) else None)
+
+
+def _across(document: Document, section: Node, steps: Sequence[Step]) -> Placement:
+    """Where the section of a sweep stands in space; beside the path's own axes where that has no place."""
+    from ..outline.frames import frame_of
+
+    try:
+        return Placement((affine(frame_of(document, section.id)),))
+    except Refusal:
+        return then(section.placement, steps)
 
 
 def change_kind(document: Document, ids: Sequence[str] | str, kind: str) -> Document:
@@ -181,6 +218,8 @@ def _changed_kind(document: Document, node_id: str, wanted: type[Node]) -> Docum
     joining = isinstance(node, OF_SOLIDS) and wanted in OF_SOLIDS
     if not joining and not (isinstance(node, Extrude | Revolve) and wanted in (Extrude, Revolve)):
         raise Refusal(f"“{node.label}” cannot become a {wanted.title.lower()}")
+    if joining and wanted in (Hull, Minkowski) and node in Outlines(document.definitions):
+        raise Refusal(f"“{node.label}” joins outlines, which are flat; a {wanted.title.lower()} takes solids")
     fewest, most = wanted.operands
     if len(node.children) < fewest:
         raise Refusal(f"a {wanted.title.lower()} needs an operand")
@@ -191,7 +230,7 @@ def _changed_kind(document: Document, node_id: str, wanted: type[Node]) -> Docum
     kept = {n: getattr(node, n) for n in ("id", "colour", "visible", "note", "placement", "children", *shared)}
     name = node.name
     if name.rstrip("0123456789 ") == node.title:  # the name that it was given, not one that somebody chose
-        name = unique_name(wanted.title, [root.name for root in document.solids])
+        name = root_name(document, wanted.title)
     return change(document, node_id, lambda node: wanted(name=name, **kept))
 
 

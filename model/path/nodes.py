@@ -62,6 +62,7 @@ def handles(contour: Contour) -> Handles:
 def move(contour: Contour, nodes: ArrayLike, by: ArrayLike) -> Contour:
     """Some nodes moved by (d,), or each by its own row (k, d), with their handles; automatic ones follow.
 
+    The control point of a quadratic goes along where both ends do, halfway between where they would take it.
     Ends of B-splines move with their outermost control points; those that end elsewhere are clamped first.
     """
     chosen = np.atleast_1d(np.asarray(nodes, np.intp))
@@ -75,16 +76,29 @@ def move(contour: Contour, nodes: ArrayLike, by: ArrayLike) -> Contour:
     points[found.node] += shift
     for side in (found.before, found.after):
         points[side[side >= 0]] += shift[side >= 0]
+    both = between(contour, chosen)
+    quadratic = both[contour.kinds[both] == Kind.QUADRATIC]
+    points[contour.starts[quadratic] + 1] += 0.5 * (shift[quadratic] + shift[(quadratic + 1) % count])
     if contour.closed:
         points[-1] = points[0]
-    moved = replace(contour, points=points, splines=_splines(contour, shift))
-    return _settled(moved, chosen)
+    moved = replace(contour, points=points, splines=splines_moved(contour, shift))
+    return settled(moved, chosen)
+
+
+def between(contour: Contour, nodes: ArrayLike) -> Numbers:
+    """The segments of which both ends are among the nodes."""
+    count = len(contour.nodes)
+    chosen = np.zeros(count, bool)
+    chosen[np.asarray(nodes, np.intp)] = True
+    rows = np.arange(len(contour))
+    return np.flatnonzero(chosen[rows] & chosen[(rows + 1) % count])
 
 
 def move_handle(contour: Contour, point: int, to: ArrayLike) -> Contour:
     """A handle, by its row in `points`, put to (d,); the one across turns with it where the node asks for it.
 
-    A node that was automatic becomes smooth. The handle of a smooth node beside a line stays on the line's direction.
+    A node that was automatic becomes smooth. The handle of a smooth node beside a line stays on the line's direction;
+    the handles of smooth nodes at both ends of a quadratic follow its control point.
     """
     found = handles(contour)
     points = contour.points.copy()
@@ -111,7 +125,11 @@ def move_handle(contour: Contour, point: int, to: ArrayLike) -> Contour:
                 if along.any():
                     target = here + max((target - here) @ along / (along @ along), 0.0) * along
     points[point] = target
-    return replace(contour, points=points, nodes=nodes)
+    moved = replace(contour, points=points, nodes=nodes)
+    segment = int(np.searchsorted(contour.starts, point)) - 1
+    if contour.kinds[segment] != Kind.QUADRATIC:
+        return moved
+    return settled(moved, np.array([segment, (segment + 1) % len(nodes)]))
 
 
 def set_kind(contour: Contour, nodes: ArrayLike, kind: Node) -> Contour:
@@ -158,7 +176,7 @@ def _curved(contour: Contour, chosen: np.ndarray, kind: Node) -> Contour:
     return _automatic(fresh, np.isin(np.arange(count), rows[both]))
 
 
-def _settled(contour: Contour, moved: Numbers) -> Contour:
+def settled(contour: Contour, moved: Numbers) -> Contour:
     """Automatic nodes at or beside those moved get new handles; smooth ones follow the lines beside them."""
     count = len(contour.nodes)
     near = np.zeros(count, bool)
@@ -234,7 +252,7 @@ def _spline_arms(contour: Contour) -> list[tuple[np.ndarray, Floats]]:
     return sides
 
 
-def _splines(contour: Contour, shift: Floats) -> tuple[BSpline, ...]:
+def splines_moved(contour: Contour, shift: Floats) -> tuple[BSpline, ...]:
     """The splines after their end nodes have moved by rows of `shift`."""
     found = []
     for segment, spline in zip(np.flatnonzero(contour.kinds == Kind.SPLINE).tolist(), contour.splines, strict=True):

@@ -21,9 +21,10 @@ from .archive import allowance, member, members_of, open_archive, unpacked
 from .assets import AssetStore, assets_of, default_store, is_sha
 from .disk import one_line, reason_of, replace_file
 
-FORMAT = 2
+FORMAT = 3
 MIGRATIONS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
     1: lambda table: table,  # 2 added sets of parameters and sections, which may be missing
+    2: lambda table: table,  # 3 added curves, what is made of them, and outlines that stand by themselves
 }
 """For each older format the function that makes its table one of the next format."""
 

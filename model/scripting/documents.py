@@ -13,25 +13,24 @@ from typing import Any
 from ..document.document import Document, Parameter
 from ..document.errors import Refusal
 from ..document.nodes import Node
-from ..document.tree import numbered, unique_name, walk
+from ..document.tree import Names, numbered, put, walk
 from ..operations.parameters import declared, names_of
 from .joining import solids_of
 from .shapes import Value
 
 
 def document_of(*solids: Node | Document, **named: Node) -> Document:
-    """A document of these solids; a keyword is a solid's name. Parameters are those that their numbers declare."""
+    """A document of these solids and outlines; a keyword is a name. Parameters are those that their numbers declare."""
     if len(solids) == 1 and isinstance(solids[0], Document) and not named:
         return solids[0]
     roots: list[Node] = []
-    taken: set[str] = set()
+    names = Names()
     for name, solid in [*((None, solid) for solid in solids), *named.items()]:
         if not isinstance(solid, Node):
             raise Refusal(f"a document holds solids, not {solid!r:.60}")
-        wanted = unique_name(name or solid.label, taken)
-        taken.add(wanted)
+        wanted = names.take(name or solid.label)
         roots.append(solid if solid.name == wanted else solid.with_(name=wanted))
-    return Document(solids=numbered(roots), parameters=_declared(roots))
+    return put(Document(parameters=_declared(roots)), numbered(roots))
 
 
 def document_from(table: Mapping[str, Any]) -> Document:
@@ -207,9 +206,9 @@ def save_sets(path: str | os.PathLike[str], document: Document) -> None:
 
 
 def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: float = 0.05, **named: Node) -> Document:
-    """Write a project (.solidtree) or a mesh file (.stl .3mf .obj .ply .off .glb); a keyword is a solid's name.
+    """Write a project (.solidtree), a mesh file (.stl .3mf .obj .ply .off .glb) or outlines (.svg .dxf).
 
-    The result is the document written.
+    A keyword is a name. The result is the document written.
     """
     document = document_of(*solids, **named)
     target = Path(path)

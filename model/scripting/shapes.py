@@ -1,4 +1,4 @@
-"""Shapes as values: parameters, primitives, outlines, and the solids they make."""
+"""Shapes as values: parameters and primitives."""
 
 # Nodes take numbers as text too, and keep them as expressions; their types tell what they keep.
 # pyright: reportArgumentType=false
@@ -16,21 +16,7 @@ from ..document.nodes import (
     Node,
     Union,
 )
-from ..document.primitives import (
-    Box,
-    Circle,
-    Cone,
-    Cylinder,
-    Extrude,
-    Halfspace,
-    ImportedMesh,
-    Polygon,
-    Polyhedron,
-    Rectangle,
-    Revolve,
-    Sphere,
-    Torus,
-)
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Polyhedron, Sphere, Torus
 
 Value = Number | str | int
 """A number, an expression, or an expression's text."""
@@ -156,81 +142,15 @@ def mesh(path: str | os.PathLike[str]) -> Node:
     return solids[0] if len(solids) == 1 else Union(children=solids, name=Path(path).stem)
 
 
-def rectangle(width: Value = 20, height: Value = 10, centred: bool = False) -> Rectangle:
-    """An outline with its lowest corner at the origin.
-
-    >>> measure(extrude(rectangle(4, 5), 6)).volume
-    120.0
-    """
-    return Rectangle(width=width, height=height, centred=centred)
-
-
-def circle(radius: Value = 10, segments: int | None = None, tolerance: Value | None = None) -> Circle:
-    """A round outline about the origin.
-
-    >>> circle(4).at(12)
-    <Circle ...>
-    """
-    return Circle(radius=radius, segments=segments, tolerance=tolerance)
-
-
-def polygon(points: Iterable[Sequence[Value]] = (), loops: Iterable[Sequence[int]] = ()) -> Polygon:
-    """A closed outline of straight sides through `points` (n, 2); `loops` of indices make holes (even-odd rule).
-
-    >>> measure(extrude(polygon([(0, 0), (4, 0), (0, 3)]), 2)).volume
-    12.0
-    """
-    return Polygon(points=tuple(tuple(p) for p in points), loops=tuple(tuple(loop) for loop in loops))
-
-
-def extrude(
-    outline: Node,
-    height: Value = 10,
-    twist: Value = 0,
-    top_scale: Value = 1,
-    centred: bool = False,
-    segments: int | None = None,
-    tolerance: Value | None = None,
-) -> Extrude:
-    """An outline drawn up along z, twisted by degrees and scaled towards the top.
-
-    >>> extrude(circle(10), height=5, top_scale=0.5)
-    <Extrude ...>
-    """
-    return Extrude(
-        children=(outline,),
-        height=height,
-        twist=twist,
-        top_scale=top_scale,
-        centred=centred,
-        segments=segments,
-        tolerance=tolerance,
-    )
-
-
-def revolve(outline: Node, angle: Value = 360, segments: int | None = None, tolerance: Value | None = None) -> Revolve:
-    """An outline turned about its y axis, which becomes z.
-
-    >>> revolve(circle(4).at(12), angle=180)
-    <Revolve ...>
-    """
-    return Revolve(children=(outline,), angle=angle, segments=segments, tolerance=tolerance)
-
-
 __all__ = [
     "box",
-    "circle",
     "cone",
     "cylinder",
-    "extrude",
     "halfspace",
     "imported_mesh",
     "mesh",
     "parameter",
-    "polygon",
     "polyhedron",
-    "rectangle",
-    "revolve",
     "sphere",
     "torus",
 ]

@@ -41,6 +41,8 @@ class DisplayMesh:
     vertices: NDArray[np.float64]  # (v, 3) the solid's own, as exact as they are
     corners: NDArray[np.int32]  # (t, 3) the triangles by those
     convex: NDArray[np.bool_]  # (o,) owners whose whole surface, before it was cut, is known to be convex
+    sheet: bool = False
+    """Whether it is an outline that stands by itself, which encloses nothing (see sheet.py)."""
 
 
 def display_mesh(

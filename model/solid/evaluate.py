@@ -14,16 +14,23 @@ from manifold3d import Manifold
 from numpy.typing import NDArray
 
 from ..document.errors import Refusal
+from ..document.from_outlines import FROM_OUTLINES
 from ..document.nodes import Broken, Node, Union, range_fault
+from ..document.outlines import is_outline
 from ..document.placement import IDENTITY, product
-from ..document.primitives import OUTLINES, Halfspace
+from ..document.primitives import Halfspace
+from . import from_outlines as from_outlines  # these three register what they make
+from . import lofts as lofts
+from . import sweeps as sweeps
 from .combine import Cuts, Operand, joint_key
 from .copies import MOST_OCCURRENCES, copies, occurrence_count
+from .drawn import drawn_solid
 from .entry import Bounds, Entry, Key, Problem, Steps, Wanted
 from .failure import NoSolid
 from .leaves import solid_of
 from .maps import chained, matrix_of, moved, placed_tolerance, tolerance_before
 from .operations import JOINING, OPERATIONS, sound
+from .profiles import outline_problems
 from .tessellation import DEFAULT_TOLERANCE
 from .unbounded import Ends, bounding_reach, box_within, halfspace_box, mapped, planes_of
 
@@ -212,19 +219,24 @@ class Evaluator:
         fault = range_fault(node)
         if fault:
             raise NoSolid(fault)
-        if isinstance(node, OUTLINES):
+        if is_outline(node):
             raise NoSolid(f"{node.title}: an outline is flat; extrude or revolve it to make a solid")
         operation = OPERATIONS.get(type(node))
         if operation is not None:
             return (yield from operation(self, wanted))
-        for place, child in enumerate(node.children):
-            fault = child.message if isinstance(child, Broken) else range_fault(child)
-            if fault:
-                return Entry(wanted.key, None, (Problem((place,), fault),))
         if isinstance(node, Halfspace):
             assert wanted.box is not None
             return self.original(wanted, halfspace_box(node, wanted.box))
-        return self.original(wanted, sound(solid_of(node, wanted.tolerance), node))
+        if not isinstance(node, FROM_OUTLINES):
+            return self.original(wanted, sound(solid_of(node, wanted.tolerance), node))
+        try:
+            return self.original(wanted, sound(drawn_solid(node, wanted.tolerance), node))
+        except (NoSolid, Refusal):
+            blamed = [Problem((place, *problem.place), problem.message)
+                      for place, child in enumerate(node.children) for problem in outline_problems(child)]  # fmt: skip
+            if not blamed:
+                raise
+            return Entry(wanted.key, None, tuple(blamed))
 
     def original(self, wanted: Wanted, solid: Manifold) -> Entry:
         """The entry of a solid that begins here: its faces will name this node's value."""

@@ -7,8 +7,8 @@ from collections.abc import Callable, Container, Iterable, Sequence
 import numpy as np
 
 from ..document.nodes import Node
+from ..document.outlines import Outlines
 from ..document.placement import Placement
-from ..document.primitives import OUTLINES
 from ..measuring.measure import Measures
 from .display import DisplayMesh
 from .entry import Bounds
@@ -38,10 +38,11 @@ def examine(
     surface; measures are those of its first place in the world, None where it failed or has no end.
     """
     answers: list[Answer] = []
+    flat = Outlines()
     for node_id, places in places_of(solids, ids).items():
         place = places[0]
         bare = place.node.with_(placement=Placement())
-        if isinstance(bare, OUTLINES):
+        if bare in flat:
             continue
         endless = evaluator.ends.endless(bare)
         box = _room(evaluator, solids, place, tolerance, progress) if endless else None

@@ -7,14 +7,15 @@ from typing import Any
 
 from ..document.document import Document
 from ..document.nodes import Node
+from ..document.outlines import Outlines
 from ..document.placement import Placement
-from ..document.primitives import OUTLINES
 from ..document.tree import walk
 from ..measuring.measure import Measures
 from .evaluate import Evaluator
 from .maps import moved
 from .places import places_of
-from .results import SolidResult, evaluate_document, measures_of
+from .profiles import figures_of
+from .results import ProfileResult, SolidResult, evaluate_document, measures_of
 
 
 def information(
@@ -24,7 +25,7 @@ def information(
     nodes: bool = False,
     walls: bool = False,
 ) -> tuple[dict[str, Any], bool]:
-    """The measurements as plain JSON values, and whether every visible solid is in order.
+    """The measurements as plain JSON values, and whether all that is visible is in order.
 
     `nodes` adds those of every node by itself, as it stands in the world; of several copies the first one's.
     `walls` adds an estimate of each solid's least wall (see measuring/thickness.py).
@@ -41,7 +42,7 @@ def information(
     answer = {
         "solids": [{"name": result.root.name, **_row(measures)} for result, measures in measured],
         "total": total,
-        "profiles": [],
+        "profiles": [_profile_row(result) for result in evaluation.profiles],
         "warnings": [{"node": message.name, "message": message.message} for message in evaluation.messages],
     }
     if walls:
@@ -49,7 +50,15 @@ def information(
             row["thinnest_wall"] = _wall(result)
     if nodes:
         answer["nodes"] = _nodes([result.root for result in evaluation.solids], evaluation.evaluator, tolerance)
-    return answer, bool(visible) and all(_in_order(result) for result, _ in visible)
+    profiles = [result for result in evaluation.profiles if result.root.visible]
+    in_order = all(_in_order(result) for result, _ in visible) and all(result.path is not None for result in profiles)
+    return answer, bool(visible or profiles) and in_order
+
+
+def _profile_row(result: ProfileResult) -> dict[str, Any]:
+    if result.path is None:
+        return {"name": result.root.name, **dict.fromkeys(("area", "bounds", "contours", "length"))}
+    return {"name": result.root.name, **figures_of(result.path).as_json()}
 
 
 def _in_order(result: SolidResult) -> bool:
@@ -69,11 +78,12 @@ def _nodes(solids: Sequence[Node], evaluator: Evaluator, tolerance: float) -> li
     """In reading order. Outlines have no measures, nor has what failed or has no end."""
     named = {node.id: node.label for node in walk(*solids)}
     rows = []
+    flat = Outlines()
     for places in places_of(solids, named).values():
         node, path = places[0].node, places[0].path
         bare = node.with_(placement=Placement())
         solid = None
-        if not isinstance(node, OUTLINES) and not evaluator.ends.endless(bare):
+        if node not in flat and not evaluator.ends.endless(bare):
             solid = evaluator.within(bare, tolerance, None).solid
         row = _row(None if solid is None else measures_of(moved(solid, places[0].matrix).to_mesh64()))
         rows.append(

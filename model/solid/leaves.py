@@ -5,34 +5,19 @@ Each result is an original of manifold3d, so that every triangle of a later resu
 
 from __future__ import annotations
 
-import math
 from functools import singledispatch
 
 import numpy as np
-from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64, triangulate
+from manifold3d import CrossSection, Error, Manifold, Mesh64, triangulate
 from numpy.typing import NDArray
 
 from ..document.nodes import Node
-from ..document.placement import Placement
-from ..document.primitives import (
-    Box,
-    Circle,
-    Cone,
-    Cylinder,
-    Extrude,
-    ImportedMesh,
-    Polygon,
-    Polyhedron,
-    Rectangle,
-    Revolve,
-    Sphere,
-    Torus,
-)  # fmt: skip
+from ..document.primitives import Box, Cone, Cylinder, ImportedMesh, Polyhedron, Sphere, Torus
 from .failure import NoSolid, words
 from .tessellation import MAX_SEGMENTS, MAX_SURFACE_SEGMENTS, circle_segments, sphere_segments
 
 
-def _wanted(node: Node, tolerance: float) -> tuple[int | None, float]:
+def fineness_of(node: Node, tolerance: float) -> tuple[int | None, float]:
     """The node's own segments, if it has them, and its tolerance: its own one wins unless a coarser is asked for."""
     segments, own = node.segments, node.tolerance  # type: ignore[attr-defined]
     if segments is not None:
@@ -42,8 +27,8 @@ def _wanted(node: Node, tolerance: float) -> tuple[int | None, float]:
     return None, tolerance if own is None else float(own)
 
 
-def _segments(node: Node, radius: float, tolerance: float, count=circle_segments) -> int:
-    segments, tolerance = _wanted(node, tolerance)
+def segments_of(node: Node, radius: float, tolerance: float, count=circle_segments) -> int:
+    segments, tolerance = fineness_of(node, tolerance)
     return segments or count(radius, tolerance)
 
 
@@ -61,13 +46,13 @@ def solid_of_box(node: Box, tolerance: float) -> Manifold:
 
 @solid_of.register
 def solid_of_sphere(node: Sphere, tolerance: float) -> Manifold:
-    return Manifold.sphere(float(node.radius), _segments(node, float(node.radius), tolerance, sphere_segments))
+    return Manifold.sphere(float(node.radius), segments_of(node, float(node.radius), tolerance, sphere_segments))
 
 
 @solid_of.register
 def solid_of_cylinder(node: Cylinder, tolerance: float) -> Manifold:
     radius = float(node.radius)
-    segments = _segments(node, radius, tolerance)
+    segments = segments_of(node, radius, tolerance)
     return Manifold.cylinder(float(node.height), radius, radius, segments, node.centred)
 
 
@@ -76,13 +61,13 @@ def solid_of_cone(node: Cone, tolerance: float) -> Manifold:
     low, high = float(node.radius), float(node.top_radius)
     if low == high == 0:
         raise NoSolid("Cone: radius and top radius are both 0")
-    return Manifold.cylinder(float(node.height), low, high, _segments(node, max(low, high), tolerance), node.centred)
+    return Manifold.cylinder(float(node.height), low, high, segments_of(node, max(low, high), tolerance), node.centred)
 
 
 @solid_of.register
 def solid_of_torus(node: Torus, tolerance: float) -> Manifold:
     radius, tube = float(node.radius), float(node.tube_radius)
-    segments, tolerance = _wanted(node, tolerance)
+    segments, tolerance = fineness_of(node, tolerance)
     # Around the axis and around the tube each may use half of the tolerance.
     around = segments or min(circle_segments(radius + tube, tolerance / 2), MAX_SURFACE_SEGMENTS)
     tubular = segments or min(circle_segments(tube, tolerance / 2), MAX_SURFACE_SEGMENTS)
@@ -194,74 +179,3 @@ def solid_of_imported_mesh(node: ImportedMesh, tolerance: float) -> Manifold:
         raise NoSolid(f"Imported mesh: the file holds {len(parts)} solid{'s' * (len(parts) != 1)}, not number {index}")
     part = parts[index]
     return closed_solid(part.vertices * float(node.unit), part.triangles.astype(np.int64), None, "Imported mesh")
-
-
-@solid_of.register
-def solid_of_extrude(node: Extrude, tolerance: float) -> Manifold:
-    section = section_of(node.children[0], tolerance)
-    if section.is_empty():
-        raise NoSolid("Extrusion: the outline encloses nothing")
-    twist, height = float(node.twist), float(node.height)
-    reach = float(np.abs(np.array(section.bounds())).max())
-    divisions = 0
-    if twist:
-        divisions = math.ceil(abs(twist) / 360 * _segments(node, max(reach, 1e-9), tolerance))
-        if node.segments is None:
-            # A wall of length L twisted by an angle a between two levels is L a / 4 away from its two triangles.
-            longest = max(
-                float(np.linalg.norm(np.roll(c, -1, axis=0) - c, axis=1).max()) for c in section.to_polygons()
-            )
-            wanted = math.radians(abs(twist)) * longest / (4 * _wanted(node, tolerance)[1])
-            divisions = max(divisions, math.ceil(wanted))
-    scale = float(node.top_scale)
-    solid = Manifold.extrude(section, height, min(divisions, MAX_SEGMENTS), twist, (scale, scale))
-    return solid.translate((0, 0, -height / 2)).as_original() if node.centred else solid
-
-
-@solid_of.register
-def solid_of_revolve(node: Revolve, tolerance: float) -> Manifold:
-    section = section_of(node.children[0], tolerance)
-    reach = section.bounds()[2] if not section.is_empty() else 0.0
-    if reach <= 0:
-        raise NoSolid("Revolution: the outline lies at x < 0; only what is right of the y axis is turned")
-    angle = min(float(node.angle), 360.0)
-    return section.revolve(_segments(node, reach, tolerance), angle)
-
-
-@singledispatch
-def section_of(node: Node, tolerance: float) -> CrossSection:
-    """The outline's area in its own plane, placed. Raises NoSolid."""
-    raise NoSolid(f"{node.title}: a solid stands where an outline is needed")
-
-
-def _placed(section: CrossSection, placement: Placement) -> CrossSection:
-    if not placement.steps:
-        return section
-    matrix = placement.matrix()
-    if np.abs(matrix[2, :2]).max() > 1e-12:
-        raise NoSolid("an outline can be turned about z only")
-    return section.transform(matrix[:2][:, [0, 1, 3]])
-
-
-@section_of.register
-def section_of_rectangle(node: Rectangle, tolerance: float) -> CrossSection:
-    return _placed(CrossSection.square((float(node.width), float(node.height)), node.centred), node.placement)
-
-
-@section_of.register
-def section_of_circle(node: Circle, tolerance: float) -> CrossSection:
-    return _placed(
-        CrossSection.circle(float(node.radius), _segments(node, float(node.radius), tolerance)), node.placement
-    )
-
-
-@section_of.register
-def section_of_polygon(node: Polygon, tolerance: float) -> CrossSection:
-    if len(node.points) < 3:
-        raise NoSolid("Polygon: three or more points are needed")
-    points = np.array(node.points, dtype=np.float64)
-    for number, loop in enumerate(node.loops):
-        if len(loop) < 3 or min(loop) < 0 or max(loop) >= len(points):
-            raise NoSolid(f"Polygon: loop {number} must name three or more of the points 0 to {len(points) - 1}")
-    contours = [points[list(loop)] for loop in node.loops] or [points]
-    return _placed(CrossSection(contours, FillRule.EvenOdd), node.placement)

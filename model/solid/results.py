@@ -15,10 +15,12 @@ from ..document.nodes import Hull, Node
 from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere
 from ..document.resolve import Resolver
 from ..measuring.measure import Measures, measure
+from ..path.path import Path
 from ..worker.shown import Message
 from .display import DisplayMesh, display_mesh
-from .entry import Entry
+from .entry import Entry, Problem
 from .evaluate import Evaluator
+from .profiles import profile_of
 from .provenance import occurrences, owners_of_runs
 from .tessellation import DEFAULT_TOLERANCE
 
@@ -50,6 +52,15 @@ class SolidResult:
         return None if surface is None else measure(*surface, closed=False)
 
 
+@dataclass(frozen=True, slots=True)
+class ProfileResult:
+    """One outline that stands by itself: its resolved tree, and its curves or None; see `profile_path`."""
+
+    root: Node
+    path: Path | None
+    messages: tuple[Message, ...]
+
+
 def arrays_of(mesh: Mesh64) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Points (n, 3) and triangles (m, 3)."""
     return np.asarray(mesh.vert_properties)[:, :3], np.asarray(mesh.tri_verts).astype(np.int64)
@@ -74,10 +85,10 @@ def measures_of(mesh: Mesh64) -> Measures:
     return measure(*arrays_of(mesh))
 
 
-def messages_of(root: Node, entry: Entry) -> tuple[Message, ...]:
-    """The entry's problems with the nodes they are about."""
+def messages_of(root: Node, problems: Iterable[Problem]) -> tuple[Message, ...]:
+    """The problems with the nodes they are about."""
     found = []
-    for problem in entry.problems:
+    for problem in problems:
         node = root
         for index in problem.place:
             node = node.children[index]
@@ -86,7 +97,12 @@ def messages_of(root: Node, entry: Entry) -> tuple[Message, ...]:
 
 
 def result_of(root: Node, entry: Entry) -> SolidResult:
-    return SolidResult(root, entry.solid, messages_of(root, entry), entry.rest)
+    return SolidResult(root, entry.solid, messages_of(root, entry.problems), entry.rest)
+
+
+def profile_result(root: Node) -> ProfileResult:
+    path, problems = profile_of(root)
+    return ProfileResult(root, path, messages_of(root, problems))
 
 
 def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
@@ -110,14 +126,15 @@ def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
 
 @dataclass(frozen=True, slots=True)
 class Evaluation:
-    """A document's results, in the order of its solids."""
+    """A document's results, in the order of its solids and of its profiles."""
 
     solids: tuple[SolidResult, ...]
     evaluator: Evaluator
+    profiles: tuple[ProfileResult, ...] = ()
 
     @property
     def messages(self) -> tuple[Message, ...]:
-        return tuple(message for result in self.solids for message in result.messages)
+        return tuple(message for result in (*self.solids, *self.profiles) for message in result.messages)
 
     @property
     def visible(self) -> tuple[SolidResult, ...]:
@@ -139,12 +156,14 @@ def evaluate_document(
     evaluator: Evaluator | None = None,
     progress: Callable[[str], None] | None = None,
 ) -> Evaluation:
-    """Evaluate a document's solids (all, or the roots with these ids)."""
+    """Evaluate a document's solids and profiles (all, or the roots with these ids)."""
     evaluator = evaluator or Evaluator()
     wanted = None if ids is None else set(ids)
+    resolved = Resolver().resolve(document)
     results = []
-    for root in Resolver().resolve(document).solids:
+    for root in resolved.solids:
         if wanted is None or root.id in wanted:
             entry = evaluator.evaluate(root, tolerance, progress)
             results.append(result_of(root, entry))
-    return Evaluation(tuple(results), evaluator)
+    profiles = [profile_result(root) for root in resolved.profiles if wanted is None or root.id in wanted]
+    return Evaluation(tuple(results), evaluator, tuple(profiles))

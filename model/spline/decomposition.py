@@ -14,7 +14,7 @@ from ..curve.degree import elevated
 from ..curve.nearest import nearest as nearest_on_bezier
 from ..document.errors import Refusal
 from .bspline import BSpline, Floats, basis_rows, combined, of_lifted, spans
-from .knots import breaks, on_knots, snapped
+from .knots import breaks, closed, on_knots, refined, snapped
 
 TOLERANCE = 1e-12
 """How far pieces may be from a joint of a higher continuity, as a part of the curve's size."""
@@ -66,14 +66,9 @@ def composed(
         raise Refusal(f"piece {number + 1} does not begin where piece {number} ends: {gaps[number]:g} mm are between")
     lifted = controls
     if weights is not None:
-        ratios = np.array(weights, float)
-        ratios[1:] *= np.cumprod(ratios[:-1, -1] / ratios[1:, 0])[:, None]  # one weight at each joint
-        lifted = bezier.homogeneous(controls, ratios)
+        lifted = bezier.homogeneous(controls, _hanging(weights))
     if parameters is None:
-        before = np.linalg.norm(lifted[:-1, -1] - lifted[:-1, -2], axis=-1)
-        after = np.linalg.norm(lifted[1:, 1] - lifted[1:, 0], axis=-1)
-        ratio = np.divide(after, before, out=np.ones(count - 1), where=(before > 0.0) & (after > 0.0))
-        parameters = np.concatenate([[0.0], np.cumsum(np.concatenate([[1.0], np.cumprod(ratio)]))])
+        parameters = np.concatenate([[0.0], np.cumsum(_steps(lifted))])
         parameters /= parameters[-1]
     where = np.asarray(parameters, float)
     if where.shape != (count + 1,) or not (np.diff(where) > 0.0).all():
@@ -94,6 +89,80 @@ def composed(
     else:
         made, knots = chain, full
     return of_lifted(made, p, knots, weights is not None)
+
+
+def ring(
+    controls: ArrayLike,
+    weights: ArrayLike | None = None,
+    parameters: ArrayLike | None = None,
+    tolerance: float = TOLERANCE,
+) -> BSpline:
+    """One closed B-spline, on 0 to 1, of Bezier pieces (k, degree + 1, d) that hang together, the last with the first.
+
+    Like `composed`. The seam is at the first joint that asks for one knot; where all ask for more, at a knot put in
+    half way along the first piece. The last piece of a rational curve is run through at another speed where its
+    weights ask for that.
+    """
+    controls = np.asarray(controls, float)
+    count, p = len(controls), controls.shape[1] - 1
+    size = float(np.ptp(controls.reshape(-1, controls.shape[-1]), axis=0).max())
+    gap = float(np.linalg.norm(controls[0, 0] - controls[-1, -1]))
+    if gap > max(tolerance, TOLERANCE) * size:
+        raise Refusal(f"the pieces are not closed: {gap:g} mm are between their ends")
+    lifted = controls
+    if weights is not None:
+        ratios = _hanging(weights)
+        ratios[-1] *= (ratios[-1, -1] / ratios[0, 0]) ** (-np.arange(p + 1) / p)
+        lifted = bezier.homogeneous(controls, ratios)
+    steps = _steps(lifted) if parameters is None else np.diff(np.asarray(parameters, float))
+    if steps.shape != (count,) or not (steps > 0.0).all():
+        raise Refusal(f"{count} pieces need {count + 1} parameters that rise, with each piece some way of its own")
+    steps = steps / steps.sum()
+    scale = float(np.abs(lifted - lifted.reshape(-1, lifted.shape[-1]).mean(0)).max())
+    order = _orders(np.concatenate([lifted, lifted[:1]]), np.append(steps, steps[0]), tolerance * scale)
+    # So many turns that no control point of the middle one reaches an end.
+    aside = p // count + 2
+    turns = np.arange(-aside, aside + 1)
+    where = np.append((np.cumsum(steps) - steps + turns[:, None]).ravel(), aside + 1.0)
+    pieces = np.tile(lifted, (len(turns), 1, 1))
+    chain = np.concatenate([pieces[0, :1], pieces[:, 1:].reshape(-1, lifted.shape[-1])])
+    full = np.concatenate([where[:1], np.repeat(where, p), where[-1:]])
+    while True:
+        inner = np.repeat(where[1:-1], p - np.tile(order, len(turns))[:-1])
+        knots = np.concatenate([np.full(p + 1, where[0]), inner, np.full(p + 1, where[-1])])
+        made = _polar(chain, p, full, knots)
+        off = np.abs(_pieces(made, p, knots, where) - pieces).max((1, 2))[aside * count : (aside + 1) * count]
+        wrong = off > max(tolerance, TOLERANCE) * scale
+        if not wrong.any() or not order.any():
+            break
+        order = np.maximum(order - (wrong | np.roll(wrong, -1)), 0)
+    tiled = of_lifted(made, p, knots, weights is not None)
+    simple = np.flatnonzero(order == p - 1)
+    if len(simple):
+        seams = where[(int(simple[0]) + 1) % count :: count]
+    else:
+        seams = turns + 0.5 * steps[0]
+        tiled = refined(tiled, seams)
+    first, last = np.searchsorted(tiled.knots, seams[[aside, aside + 1]]).tolist()
+    points, weights = tiled.points[first - p : last - p], tiled.weights
+    return closed(
+        points, p, np.diff(tiled.knots[first : last + 1]), None if weights is None else weights[first - p : last - p]
+    )
+
+
+def _hanging(weights: ArrayLike) -> Floats:
+    """(k, degree + 1) weights of pieces, each piece's by a factor, so that there is one weight at each joint."""
+    ratios = np.array(weights, float)
+    ratios[1:] *= np.cumprod(ratios[:-1, -1] / ratios[1:, 0])[:, None]
+    return ratios
+
+
+def _steps(lifted: Floats) -> Floats:
+    """(k,) intervals of pieces, by which a joint with one tangent has one derivative, too."""
+    before = np.linalg.norm(lifted[:-1, -1] - lifted[:-1, -2], axis=-1)
+    after = np.linalg.norm(lifted[1:, 1] - lifted[1:, 0], axis=-1)
+    ratio = np.divide(after, before, out=np.ones(len(lifted) - 1), where=(before > 0.0) & (after > 0.0))
+    return np.concatenate([[1.0], np.cumprod(ratio)])
 
 
 def bounds(spline: BSpline) -> Floats:

@@ -34,14 +34,19 @@ def closed(
 ) -> BSpline:
     """The closed curve of control points (m, d), as smooth at its seam as elsewhere, on the domain from 0 to 1.
 
-    `intervals` (m,) are the steps from knot to knot, all above 0, else even. The value has the first `degree` points
-    once more at its end, and is `periodic`.
+    `intervals` (m,) are the steps from knot to knot, else even; those of 0 make a knot that stands several times, up to
+    `degree`, not the first or the last one: the seam is a simple knot. The value has the first `degree` points once
+    more at its end, and is `periodic`.
     """
     points = np.asarray(points, float)
     count = len(points)
     steps = np.ones(count) if intervals is None else np.asarray(intervals, float)
-    if count < 2 or steps.shape != (count,) or not (np.isfinite(steps) & (steps > 0.0)).all():
-        raise Refusal("a closed B-spline needs two control points or more, and for each an interval of knots above 0")
+    if count < 2 or steps.shape != (count,) or not (np.isfinite(steps) & (steps >= 0.0)).all():
+        raise Refusal(
+            "a closed B-spline needs two control points or more, and for each an interval of knots, not below 0"
+        )
+    if not (steps[0] > 0.0 and steps[-1] > 0.0):
+        raise Refusal("a closed B-spline has one knot at its seam: its first and its last interval are above 0")
     around = np.arange(count + degree) % count
     base = np.concatenate([[0.0], np.cumsum(steps)[:-1]]) / steps.sum()
     ratios = None if weights is None else np.asarray(weights, float)[around]

@@ -87,6 +87,8 @@ def interpolated(
         aims[:, 0] = _directions(given, tangents, degree)
     if ends == "natural" or (ends == "clamped" and degree == 3):
         inner = t[1:-1]
+    elif count == degree + 1:  # one Bezier curve
+        inner = np.zeros(0)
     else:
         sites = np.concatenate([t[:1].repeat(len(orders)), t, t[-1:].repeat(len(orders))])
         inner = np.lib.stride_tricks.sliding_window_view(sites[1:-1], degree).mean(-1)[: count - degree - 1]

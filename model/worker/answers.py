@@ -75,7 +75,7 @@ class Answers:
         elif job.word == "partition":
             self._tell(Partitioned(job.number, None, 0.0, reason))
         elif job.word == "evaluate":
-            self._tell(Evaluated(job.number, Shown({}, (Message("", "", reason, True),)), 0.0, 0))
+            self._tell(Evaluated(job.number, Shown({}, {}, (Message("", "", reason, True),)), 0.0, 0))
 
     def _tell_shown(self, job: Job, start: float, evaluations: int) -> None:
         shown = self._pictures.shown(job.document, job.tolerance)

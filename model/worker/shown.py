@@ -41,9 +41,10 @@ class ShownSolid:
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """The visible solids by their root's id, and what there is to tell about nodes."""
+    """The visible solids and profiles by their root's id, and what there is to tell about nodes."""
 
     solids: dict[str, ShownSolid]
+    outlines: dict[str, ShownSolid]
     problems: tuple[Message, ...]
 
 
@@ -91,12 +92,13 @@ class Pictures:
         return set(self._kept)
 
     def complete(self, document: Document, tolerance: float) -> bool:
-        """Whether every visible solid of the document is kept."""
-        return all(shown_key(root, tolerance) in self._kept for root in self._roots(document))
+        """Whether everything visible of the document is kept."""
+        return all(shown_key(root, tolerance) in self._kept for root, _ in self._roots(document))
 
     def keep(self, document: Document, answers: Sequence[tuple[Any, ...]]) -> None:
-        """Take a worker's answers for the visible solids: (key, mesh, measures, messages), or the key of a kept one."""
-        for root, answer in zip(self._roots(document), answers, strict=True):
+        """Take a worker's answers for the visible solids and profiles: (key, mesh, measures, messages), or the key of a
+        kept one."""
+        for (root, _), answer in zip(self._roots(document), answers, strict=True):
             if len(answer) > 1:
                 key, mesh, measures, messages = answer
                 ways = _ways(root, {message.node_id for message in messages})
@@ -114,7 +116,8 @@ class Pictures:
         """The document's pictures, all of which must be kept, with the ids of this document."""
         solids: dict[str, ShownSolid] = {}
         problems: list[Message] = []
-        for root in self._roots(document):
+        outlines: dict[str, ShownSolid] = {}
+        for root, is_solid in self._roots(document):
             key = shown_key(root, tolerance)
             kept = self._kept[key]
             self._kept.move_to_end(key)
@@ -122,17 +125,20 @@ class Pictures:
             if solid is None or solid.key != key or not _same_ids(solid, root):
                 mesh = None if kept.solid.mesh is None else relabelled(kept.solid.mesh, root)
                 solid = kept.solid if mesh is kept.solid.mesh else ShownSolid(key, mesh, kept.solid.measures)
-            solids[root.id] = solid
+            (solids if is_solid else outlines)[root.id] = solid
             for way, message in kept.messages:
                 node = root
                 for index in way:
                     node = node.children[index]
                 problems.append(Message(node.id, node.label, message.message, message.error))
-        self._last = solids
-        return Shown(solids, tuple(problems))
+        self._last = solids | outlines
+        return Shown(solids, outlines, tuple(problems))
 
-    def _roots(self, document: Document) -> list[Node]:
-        return [root for root in self._resolver.resolve(document).solids if root.visible]
+    def _roots(self, document: Document) -> list[tuple[Node, bool]]:
+        """The visible roots in the order of a worker's answers, each with whether it is a solid."""
+        resolved = self._resolver.resolve(document)
+        roots = [(root, True) for root in resolved.solids] + [(root, False) for root in resolved.profiles]
+        return [(root, is_solid) for root, is_solid in roots if root.visible]
 
 
 def _ways(root: Node, ids: set[str]) -> dict[str, tuple[int, ...]]:

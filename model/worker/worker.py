@@ -21,7 +21,8 @@ from ..solid.display import DisplayMesh
 from ..solid.entry import Superseded
 from ..solid.evaluate import Evaluator
 from ..solid.examine import examine
-from ..solid.results import display_of, result_of
+from ..solid.results import display_of, profile_result, result_of
+from ..solid.sheet import sheet_of
 from .shown import Message, shown_key
 
 if TYPE_CHECKING:
@@ -88,17 +89,23 @@ class _Worker:
         self._connection.send(result)
 
     def _evaluate(self, number: int, table: dict[str, Any], tolerance: float, known: set[bytes]) -> tuple[Any, ...]:
-        """Each visible solid as (key, mesh, measures, messages); those whose key is known as the key alone."""
+        """Each visible solid, then each visible profile, as (key, mesh, measures, messages), of which a profile has no
+        measures; those whose key is known as the key alone."""
         start, before = time.perf_counter(), self._evaluator.evaluations
         if len(self._reuse) > 4 * len(table["nodes"]) + 1000:
             self._reuse.clear()
         document = from_table(table, self._reuse)
-        roots = [root for root in self._resolver.resolve(document).solids if root.visible]
+        resolved = self._resolver.resolve(document)
         progress = _Progress(self._connection, number, len(table["nodes"]))
         answers: list[tuple[Any, ...]] = []
-        for root in roots:
-            key = shown_key(root, tolerance)
-            answers.append((key,) if key in known else (key, *self._shown(root, tolerance, progress)))
+        for root in resolved.solids:
+            if root.visible:
+                key = shown_key(root, tolerance)
+                answers.append((key,) if key in known else (key, *self._shown(root, tolerance, progress)))
+        for root in resolved.profiles:
+            if root.visible:
+                key = shown_key(root, tolerance)
+                answers.append((key,) if key in known else (key, *self._sheet(root, tolerance)))
         seconds = time.perf_counter() - start
         return "evaluated", number, answers, seconds, self._evaluator.evaluations - before
 
@@ -107,6 +114,10 @@ class _Worker:
         progress.report("drawing")
         result = result_of(root, entry)
         return display_of(result, self._evaluator), result.measures(), result.messages
+
+    def _sheet(self, root: Node, tolerance: float) -> tuple[DisplayMesh | None, None, tuple[Message, ...]]:
+        result = profile_result(root)
+        return None if result.path is None else sheet_of(root, tolerance), None, result.messages
 
     def _examine(
         self, number: int, table: dict[str, Any], tolerance: float, ids: tuple[str, ...], known: set[bytes]

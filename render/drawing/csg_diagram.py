@@ -143,14 +143,15 @@ def _short(name: str) -> str:
 
 
 def roots_of(document: Document, solid: str | None = None) -> list[tuple[Node, str]]:
-    """What a document's diagram shows: its solids and definitions, or the one solid of this name, with their titles.
+    """What a document's diagram shows, with titles: its solids, profiles and definitions, or the one solid of this
+    name.
 
     Raises Refusal.
     """
     if solid is not None:
         return [(root, root.label) for root in chosen_solids(document, solid)]
     return [
-        *((root, root.label) for root in document.solids),
+        *((root, root.label) for root in document.standing),
         *((root, f"{root.label} (definition)") for root in document.definitions),
     ]
 

@@ -60,7 +60,7 @@ class Laying:
         self._cuts = cuts
         self._digits = digits_of(mesh)
         self._face = resting_face(mesh, place.matrix)
-        self.meshes: Mapping[str, DisplayMesh] = viewer.scene.meshes
+        self.meshes: Mapping[str, DisplayMesh] = viewer.scene.solid_meshes
         self.chosen = False
 
     @property

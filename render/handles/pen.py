@@ -111,6 +111,44 @@ class Pen:
             self._line(np.array([one, other]), width, colour, halo)
         return ends
 
+    def polyline(self, points: Floats, width: float, colour: Colour, halo: Colour | None) -> None:
+        """A line through many points (n, 3) of the world; what lies behind the eye is left out."""
+        pixels = project(self._camera, points, self._size)[:, :2]
+        ends = np.stack((pixels[:-1], pixels[1:]), axis=1)  # (n - 1, 2, 2)
+        along = ends[:, 1] - ends[:, 0]
+        length = np.linalg.norm(along, axis=1)
+        seen = np.isfinite(length) & (length > 1e-6)
+        ends, way = ends[seen], along[seen] / length[seen, None]
+        across = np.column_stack((-way[:, 1], way[:, 0]))
+        for half, found, colours, tone in (
+            (width / 2 + HALO, self._halo, self._colours[0], halo),
+            (width / 2, self._core, self._colours[1], colour),
+        ):
+            if tone is None or not len(ends):
+                continue
+            # A little longer than it is, so that there is no gap where it turns.
+            begin, end = ends[:, 0] - 0.35 * half * way, ends[:, 1] + 0.35 * half * way
+            side = half * across
+            found += [*np.stack((begin + side, begin - side, end - side), axis=1)]
+            found += [*np.stack((begin + side, end - side, end + side), axis=1)]
+            colours += [tone] * (2 * len(ends))
+
+    def square(self, point: Floats, side: float, colour: Colour, halo: Colour | None) -> None:
+        """An upright one about a point of the world, `side` pixels wide."""
+        seen = self._before_the_eye(point, point)
+        if seen is None:
+            return
+        middle = project(self._camera, seen[:1], self._size)[0, :2]
+        corners = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+        for half, found, colours, tone in (
+            (side / 2 + HALO, self._halo, self._colours[0], halo),
+            (side / 2, self._core, self._colours[1], colour),
+        ):
+            if tone is not None:
+                around = middle + half * corners
+                found += [around[[0, 1, 2]], around[[0, 2, 3]]]
+                colours += [tone] * 2
+
     def dot(self, point: Floats, radius: float, colour: Colour, halo: Colour | None) -> None:
         """A round spot at a point of the world."""
         seen = self._before_the_eye(point, point)

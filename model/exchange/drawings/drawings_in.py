@@ -26,12 +26,13 @@ def read_drawing(path: str | os.PathLike[str], tolerance: float | None = None) -
         drawing_format = format_of(data, path.suffix)
         if drawing_format is None:
             raise Refusal("is of no kind that can be read; drawings are .svg or .dxf" if data else "is empty")
-        return _read(data, drawing_format, tolerance)
+        return read_data(data, drawing_format, tolerance)
     except Refusal as refusal:
         raise Refusal(one_line(f"{path.name}: {refusal}")) from None
 
 
-def _read(data: bytes, drawing_format: str, tolerance: float | None) -> Drawing:
+def read_data(data: bytes, drawing_format: str, tolerance: float | None) -> Drawing:
+    """The shapes of the bytes of a file that is "svg" or "dxf". Raises Refusal."""
     try:
         if drawing_format == "svg":
             from .svg_in import read_svg

@@ -169,7 +169,11 @@ class _Maker:
 
         start, end = ends(spline)
         size = float(np.ptp(spline.points, axis=0).max())
-        return Piece(start, [("spline", spline)], bool(np.abs(end - start).max() <= 1e-9 * size))
+        closed = bool(np.abs(end - start).max() <= 1e-9 * size)
+        word = {2: "line", 3: "quad", 4: "cubic"}.get(len(spline.points))
+        if word is not None and len(spline.points) == spline.degree + 1 and spline.clamped and not rational:
+            return Piece(start, [(word, *spline.points[1:])], closed)  # one Bezier curve
+        return Piece(start, [("spline", spline)], closed)
 
     def _hatch(self) -> list[Piece]:
         self._from_entity()

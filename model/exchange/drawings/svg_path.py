@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import re
+from typing import Any
 
 import numpy as np
 
+from ...document.errors import Refusal
 from ...path.shapes import svg_arc
 from .drawing_shapes import Outline
 from .svg_units import COMMA, LARGEST, NUMBER, SPACE, numbers_at
@@ -29,6 +31,17 @@ def read_path(text: str, tolerance: float | None = None) -> tuple[Outline, str]:
     reader = _PathReader(text, tolerance)
     fault = reader.read()
     return reader.outline, fault
+
+
+def path_commands(text: str, tolerance: float | None = None) -> list[tuple[Any, ...]]:
+    """The commands of path data, y as it stands, in millimetres. Raises Refusal at the first fault."""
+    outline, fault = read_path(text, tolerance)
+    if fault:
+        raise Refusal(f"the path cannot be read: {fault}")
+    commands = [command for contour in outline.contours((1.0, 0.0, 0.0, 1.0, 0.0, 0.0)) for command in contour]
+    if not commands:
+        raise Refusal("the path has no segment; it begins like “M 0 0 L 10 0”")
+    return [(word, *(tuple(point.tolist()) for point in points)) for word, *points in commands]
 
 
 def _after(pattern: re.Pattern[str], text: str, at: int) -> int:

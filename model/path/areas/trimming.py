@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..curve.bezier import derivatives, evaluated, extracted
-from .flatten import chord_counts
-from .nodes import inferred
-from .path import Contour, Floats, Numbers
+from ...curve.bezier import derivatives, evaluated, extracted
+from ..flatten import chord_counts
+from ..nodes import inferred
+from ..path import Contour, Floats, Numbers
 
 
 def cut(curves: list[Floats], fine: float) -> list[Floats]:

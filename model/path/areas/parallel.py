@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..curve.bezier import derivatives
-from .fitting import fitted
-from .path import Contour, Floats
-from .pieces import Pieces, pieces_of
-from .shapes import arc_pieces, unit_arc
+from ...curve.bezier import derivatives
+from ..fitting import fitted
+from ..path import Contour, Floats
+from ..pieces import Pieces, pieces_of
+from ..shapes import arc_pieces, unit_arc
 
 JOINS = ("round", "miter", "bevel")
 CAPS = ("butt", "round", "square")

@@ -11,14 +11,14 @@ import numpy as np
 from manifold3d import CrossSection, FillRule
 from numpy.typing import NDArray
 
-from ..curve.bezier import evaluated
-from ..document.errors import Refusal
-from .fitting import fit
-from .flatten import chord_counts, flatten
-from .nodes import inferred
+from ...curve.bezier import evaluated
+from ...document.errors import Refusal
+from ..fitting import fit
+from ..flatten import chord_counts, flatten
+from ..nodes import inferred
+from ..path import Contour, Floats, Path
+from ..pieces import pieces_of
 from .parallel import CAPS, JOINS, cap, corner, end_tangents, parallel, right
-from .path import Contour, Floats, Path
-from .pieces import pieces_of
 from .trimming import chained, cut, kept
 
 FILL = {"nonzero": FillRule.NonZero, "evenodd": FillRule.EvenOdd}
@@ -184,10 +184,16 @@ def _bounding(region: CrossSection, curves: list[Floats], tolerance: float) -> P
         path = Path(tuple(contours))
         if abs(path.area() - region.area()) <= tolerance * edge:
             return path
+    return through(region, tolerance)
+
+
+def through(region: CrossSection, tolerance: float) -> Path:
+    """The boundary of a region as lines and cubics fitted to it; slivers narrower than the tolerance are left out."""
     found = []
-    for polygon in polygons:
-        controls = fit(_denser(polygon), SHARE * tolerance, closed=True).controls
-        found.append(inferred(Contour.of_segments([_plain(curve, tolerance) for curve in controls], True)))
+    for polygon in (np.asarray(polygon, float) for polygon in region.to_polygons()):
+        if _is_wide(polygon, SHARE * tolerance):
+            controls = fit(_denser(polygon), SHARE * tolerance, closed=True).controls
+            found.append(inferred(Contour.of_segments([_plain(curve, tolerance) for curve in controls], True)))
     return Path(tuple(found))
 
 

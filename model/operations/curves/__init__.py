@@ -1,0 +1,1 @@
+"""Operations on outlines: document in, document out. Imports document, outline and the curve mathematics."""

@@ -1,0 +1,1 @@
+"""Paths as areas: offsets, strokes, booleans. Imports manifold3d."""

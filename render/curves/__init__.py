@@ -1,0 +1,1 @@
+"""Curves in the picture: outlines, their nodes and handles, combs and constructions. Imports VTK, no Qt."""
