@@ -4,9 +4,12 @@ import math
 
 import numpy as np
 import pytest
+from scipy.spatial import KDTree
 
 from solidtree.model.document.from_outlines import Sweep
 from solidtree.model.document.outlines import Bezier
+from solidtree.model.outline.paths import path_of
+from solidtree.model.outline.sweeping import path_frames, start_frame
 from solidtree.model.path.shapes import arc
 from solidtree.model.script import circle, difference, path, pipe, rectangle, sweep
 from solidtree.model.solid.evaluate import Evaluator
@@ -229,8 +232,6 @@ def test_a_closed_pipe_is_a_ring_and_with_corners_too():
 
 def test_a_pipe_in_space_has_the_volume_of_its_length():
     curve = Bezier(points=((0, 0, 0), (0, 0, 40), (40, 0, 40), (40, 40, 80)))
-    from solidtree.model.outline.paths import path_of
-
     solid = made(pipe(curve, 2, bore=1), 0.002)
     assert solid.volume() == pytest.approx(math.pi * 3 * path_of(curve).length(), rel=2e-3)
 
@@ -238,6 +239,33 @@ def test_a_pipe_in_space_has_the_volume_of_its_length():
 def test_a_pipe_goes_back_the_way_it_came():
     solid = made(pipe(line((0, 0), (20, 0), (10, 0)), 3), 0.005)
     assert solid.volume() == pytest.approx(math.pi * 9 * 20 + 2 / 3 * math.pi * 27, rel=2e-3)
+
+
+@pytest.mark.parametrize(
+    "along",
+    [
+        Bezier(points=((0, 0, 0), (30, 0, 0), (-15, 4, 0), (12, 12, 6))),  # bends tighter than the pipe is wide
+        line((0, 0, 0), (20, 0, 0), (3, 5, 0), (14, -6, 2)),  # crosses itself, with corners of 150 degrees and more
+    ],
+)
+def test_a_rounded_pipe_is_all_that_is_within_its_radius_of_the_path(along):
+    solid = made(pipe(along, 3, rounded=True), 0.02)
+    points = np.random.default_rng(5).uniform((-8, -12, -6), (26, 18, 12), (40_000, 3))
+    spine = path_frames(path_of(along), 1e-3, 1.0, step=0.1, mitred=False).origins
+    distance = KDTree(spine).query(points)[0]
+    assert solid.volume() == pytest.approx((distance < 3).mean() * 34 * 30 * 18, rel=0.03)
+    away = np.abs(distance - 3) > 0.05
+    chosen = np.concatenate((points[away & (distance < 3)][:300], points[away & (distance > 3)][:300]))
+    hits = [len(solid.ray_cast(tuple(p), tuple(p + np.array((1.0, 2.0, 200.0))))) % 2 for p in chosen]
+    np.testing.assert_array_equal(hits, [1] * 300 + [0] * 300)
+
+
+def test_the_outline_stands_where_the_start_frame_says():
+    along = line((3, 4, 5), (9, 7, 7))
+    frame = start_frame(path_of(along))
+    low = made(sweep(rectangle(4, 3), along)).to_mesh64().vert_properties[:, :3]
+    corners = np.array([(0, 0), (4, 0), (4, 3), (0, 3)]) @ frame[:, :2].T + frame[:, 3]
+    assert (KDTree(low).query(corners)[0] < 1e-12).all()
 
 
 # Refusals

@@ -31,7 +31,8 @@ ORDER = {
     "Curve/Nodes Curve/Nodes_become Curve/Segments_become Curve/Joints Curve/Align_nodes transform_box - "
     "unite_outlines subtract_outlines intersect_outlines "
     "exclude_outlines - offset_outline stroke_outline "
-    "convert_to_path convert_to_bspline - elevate_degree reduce_degree refine_knots - reverse_contours split_outline - mirror_outline_x mirror_outline_y - "
+    "convert_to_path convert_to_bspline - elevate_degree reduce_degree refine_knots - "
+    "reverse_contours split_outline - mirror_outline_x mirror_outline_y - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections - tool_menu",

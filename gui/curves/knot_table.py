@@ -5,7 +5,14 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemDelegate,
+    QAbstractItemView,
+    QHeaderView,
+    QTableWidget,
+    QTableWidgetItem,
+    QWidget,
+)
 
 if TYPE_CHECKING:
     from ...model.outline.basis import Basis, Stack
@@ -20,10 +27,12 @@ ROW, SHOWN = 22, 6  # height of a row, and how many are seen at once
 
 
 class KnotTable(QTableWidget):
-    """A row for each value. `picked` carries a row that was chosen here, `written` a row and its new text."""
+    """A row for each value. `picked` carries a row that was chosen here, `written` a row and its new text, and
+    `editor_closed` tells that what stands there is to be shown again."""
 
     picked = Signal(int)
     written = Signal(int, str)
+    editor_closed = Signal()
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, len(TITLES), parent)
@@ -76,6 +85,10 @@ class KnotTable(QTableWidget):
             self._filling = False
         shown = min(max(len(basis.stacks), 3), SHOWN)
         self.setFixedHeight(self.horizontalHeader().sizeHint().height() + shown * ROW + 2 * self.frameWidth())
+
+    def closeEditor(self, editor: QWidget, hint: QAbstractItemDelegate.EndEditHint) -> None:
+        super().closeEditor(editor, hint)
+        self.editor_closed.emit()
 
     def _chosen(self) -> None:
         if not self._filling and self.currentRow() >= 0:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QWheelEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QSlider, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSlider, QVBoxLayout, QWidget
 
 from ..panels.number_field import QUIET, NumberField, Steps
 from ..partition.order_bar import StepSlider
@@ -47,7 +47,8 @@ class WeightRow(QWidget):
         self.field.setAccessibleName("Weight")
         self.field.setToolTip(tip)
         self.field.setMaximumWidth(64)
-        self.plain = QToolButton(self)
+        self.plain = QPushButton(self)
+        self.plain.setAutoDefault(False)
         self.plain.setText("All 1")
         self.plain.setToolTip("Weight 1 for every control point: the curve is polynomial again")
         row = QHBoxLayout()

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
+from ..document.errors import Refusal
 from ..document.from_outlines import Pipe, Sweep
 from ..outline.paths import path_of
 from ..outline.sweeping import Frames, path_frames
+from ..path.path import Path
 from .drawn import drawn_solid
 from .failure import NoSolid
 from .leaves import fineness_of
@@ -41,7 +44,7 @@ def solid_of_sweep(node: Sweep, tolerance: float) -> Manifold:
         walls = np.linalg.norm(ring.points[ring.edges[:, 1]] - ring.points[ring.edges[:, 0]], axis=1)
         longest = float(walls.max()) * max(scale, 1.0)
         step = path.length() * _twist_step(segments, tolerance / 2, reach, longest) / abs(twist)
-    frames = path_frames(path, tolerance / 2, reach, segments=segments, step=step)
+    frames = _frames(node, path, tolerance / 2, reach, segments=segments, step=step)
     share = frames.lengths / frames.length
     spin, size = twist * share, 1.0 + (scale - 1.0) * share
     cosine, sine = (size * np.cos(spin))[:, None], (size * np.sin(spin))[:, None]
@@ -67,7 +70,8 @@ def solid_of_pipe(node: Pipe, tolerance: float) -> Manifold:
     if bore >= radius:
         raise NoSolid(f"Pipe: the bore ({bore:g} mm) must be smaller than the radius ({radius:g} mm)")
     around = segments or min(circle_segments(radius, tolerance / 2), MAX_SURFACE_SEGMENTS)
-    frames = path_frames(path_of(node.children[0]), tolerance / 2, radius, segments=segments, mitred=False)
+    path = path_of(node.children[0])
+    frames = _frames(node, path, tolerance / 2, radius, segments=segments, mitred=False)
     angle = 2.0 * np.pi * np.arange(around) / around
     circle = np.column_stack((np.cos(angle), np.sin(angle)))
     ends = _dome(around) if node.rounded else np.zeros((0, 2))
@@ -84,6 +88,13 @@ def solid_of_pipe(node: Pipe, tolerance: float) -> Manifold:
     except NoSolid as fault:
         raise NoSolid(f"Pipe: {fault}") from None
     return solid.as_original()
+
+
+def _frames(node: Sweep | Pipe, path: Path, tolerance: float, reach: float, **more: Any) -> Frames:
+    try:
+        return path_frames(path, tolerance, reach, **more)
+    except Refusal as fault:
+        raise NoSolid(f"{node.title}: {fault}") from None
 
 
 def _twist_step(segments: int | None, tolerance: float, reach: float, wall: float) -> float:

@@ -1,23 +1,26 @@
-"""Outlines drawn up with leaning walls: the polygon moves inwards or outwards as it rises, from event to event.
+"""Outlines drawn up with leaning walls: the roof over the straight skeleton, cut off at the height.
 
-Between two events every corner moves along the bisector of its sides (the wavefront of the straight skeleton:
-Aichholzer, Aurenhammer, Alberts and Gärtner 1995), which makes a frustum; at an event a side has shrunk to a point or a
-corner has met another side, and what is left is a polygon again.
+Each side of the outline makes one flat wall, whatever the corners beside it do on the way up.
 """
 
 from __future__ import annotations
 
 import numpy as np
-from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64, OpType, triangulate
+from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64, triangulate
 from numpy.typing import NDArray
 
 from .failure import NoSolid
+from .wavefront import Wavefront
 
 Floats = NDArray[np.float64]
 
-MOST_EVENTS = 4000
 SAME = 1e-9
 """Corners nearer to each other than this share of the outline's size are one."""
+SOUND = 1e-6
+"""Share of the outline's area by which walls or the lid may overlap."""
+MOVED = (0.0, 1e-7, 1e-6, 1e-6, 1e-5, 1e-5)
+"""Shares of the outline's size by which its corners are moved, one attempt after the other: so what happens at once, as
+in a ring whose walls meet all around, happens in some order."""
 
 
 def tapered(section: CrossSection, height: float, slope: float) -> Manifold:
@@ -26,27 +29,39 @@ def tapered(section: CrossSection, height: float, slope: float) -> Manifold:
     It ends below the height where the walls have met everywhere. Raises NoSolid.
     """
     size = float(np.ptp(np.reshape(section.bounds(), (2, 2)), axis=0).max())
-    parts: list[Manifold] = []
-    level, rings = 0.0, _rings(section, size)
-    for _ in range(MOST_EVENTS):
-        if not rings:
-            break
-        wave = _Wave(rings, np.sign(slope) or 1.0)
-        left = abs(slope) * (height - level)
-        way = min(wave.next_event(), left)
-        step = height - level if way >= left else way / abs(slope)
-        if step > SAME * height:
-            parts.append(_frustum(wave, way, level, step))
-        level += step
-        if way >= left:
-            break
-        moved = [np.ascontiguousarray(ring) for ring in wave.rings_at(way)]
-        rings = _rings(CrossSection(moved, FillRule.Positive), size)
-    else:
-        raise NoSolid("Extrusion: the outline is too intricate for a taper: give it a coarser tolerance")
-    if not parts:
-        raise NoSolid("Extrusion: the walls meet at once: make the taper smaller")
-    return Manifold.batch_boolean(parts, OpType.Add)
+    rings = _rings(section, size)
+    if not rings:
+        raise NoSolid("Extrusion: the outline encloses nothing")
+    random = np.random.default_rng(0)
+    for moved in MOVED:
+        solid = _roof([ring + random.uniform(-moved, moved, ring.shape) * size for ring in rings], height, slope)
+        if solid is not None:
+            return solid
+    raise NoSolid("Extrusion: the outline is too intricate for a taper: give it a coarser tolerance")
+
+
+def _roof(rings: list[Floats], height: float, slope: float) -> Manifold | None:
+    """The solid, or None where so much happens at once that rounding has taken it in the wrong order."""
+    side, end = np.sign(slope) or 1.0, abs(slope) * height
+    wave = Wavefront(rings, side)
+    if not wave.run(end):
+        return None
+    nodes = np.array(wave.nodes)
+    slack = SOUND * sum(map(_area, rings))
+    if wave.lid:
+        left = CrossSection([np.ascontiguousarray(nodes[ring, :2]) for ring in wave.lid], FillRule.Positive).area()
+        if abs(left - sum(_area(nodes[ring]) for ring in wave.lid)) > slack:
+            return None
+    nodes[:, 2] *= height / end
+    walls = np.concatenate(_walls(wave, nodes))
+    a, b, c = np.moveaxis(nodes[walls, :2], 1, 0)
+    covered = side * ((b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) - (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0]))
+    # From above, walls over a simple outline cover each place once exactly where none of them is upside down.
+    if covered[covered < 0.0].sum() < -slack:
+        return None
+    floor = np.asarray(triangulate(rings, 0.0), np.int64)[:, ::-1]
+    solid = Manifold(Mesh64(nodes, np.concatenate([floor, walls, *_lid(wave, nodes)]).astype(np.uint64)))
+    return solid if solid.status() == Error.NoError and solid.volume() > 0.0 else None
 
 
 def _rings(section: CrossSection, size: float) -> list[Floats]:
@@ -60,77 +75,48 @@ def _rings(section: CrossSection, size: float) -> list[Floats]:
     return found
 
 
-class _Wave:
-    """Corners of contours, outer ones counter-clockwise, and how they move: `side` 1 inwards, -1 outwards."""
-
-    def __init__(self, rings: list[Floats], side: float) -> None:
-        self.rings, self.side = rings, side
-        self.points = np.vstack(rings)
-        count = len(self.points)
-        starts = np.cumsum([0, *map(len, rings)])
-        self.before, self.after = np.arange(count) - 1, np.arange(count) + 1
-        self.before[starts[:-1]], self.after[starts[1:] - 1] = starts[1:] - 1, starts[:-1]
-        self.starts = starts
-        along = self.points[self.after] - self.points
-        self.lengths = np.linalg.norm(along, axis=1)
-        self.along = along / self.lengths[:, None]
-        self.inward = side * np.column_stack((-self.along[:, 1], self.along[:, 0]))
-        one, other = self.inward[self.before], self.inward
-        # So that both sides are reached: at a corner that turns back on itself it would be without end.
-        share = np.maximum(1.0 + (one * other).sum(axis=1), 1e-9)
-        self.speed = (one + other) / share[:, None]
-
-    def next_event(self) -> float:
-        """How far the sides move until one is gone or is met by a corner; infinite where that never happens."""
-        shrink = ((self.speed[self.after] - self.speed) * self.along).sum(axis=1)
-        with np.errstate(divide="ignore"):
-            gone = np.where(shrink < 0.0, -self.lengths / shrink, np.inf)
-        return float(min(gone.min(), self._meeting(float(gone.min()))))
-
-    def _meeting(self, limit: float) -> float:
-        """When a corner that points into what the wave crosses first comes upon a side, if before `limit`."""
-        turn = self.along[self.before, 0] * self.along[:, 1] - self.along[self.before, 1] * self.along[:, 0]
-        blunt = np.flatnonzero(self.side * turn < 0.0)
-        best = limit
-        for rows in np.array_split(blunt, max(len(blunt) * len(self.points) // 2_000_000, 1)) if len(blunt) else ():
-            gap = ((self.points[rows, None] - self.points) * self.inward).sum(axis=2)  # (r, n) before the sides
-            closing = 1.0 - self.speed[rows] @ self.inward.T
-            with np.errstate(divide="ignore", invalid="ignore"):
-                when = np.where((closing > 1e-12) & (gap > 0.0), gap / closing, np.inf)
-            own = np.arange(len(self.points))
-            when[(own == rows[:, None]) | (own == self.before[rows][:, None])] = np.inf
-            near, side = np.nonzero(when < best)
-            if not len(near):
-                continue
-            time = when[near, side][:, None]
-            place = self.points[rows[near]] + time * self.speed[rows[near]]
-            begin = self.points[side] + time * self.speed[side]
-            end = self.points[self.after[side]] + time * self.speed[self.after[side]]
-            along = self.along[side]
-            slack = 1e-9 * self.lengths.max()
-            low, high = ((place - begin) * along).sum(axis=1), ((end - place) * along).sum(axis=1)
-            hit = (low >= -slack) & (high >= -slack)
-            if hit.any():
-                best = min(best, float(time[hit].min()))
-        return best
-
-    def rings_at(self, way: float) -> list[Floats]:
-        moved = self.points + way * self.speed
-        return [moved[a:b] for a, b in zip(self.starts[:-1], self.starts[1:], strict=True)]
+def _area(ring: Floats) -> float:
+    x, y = ring[:, 0], ring[:, 1]
+    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
-def _frustum(wave: _Wave, way: float, level: float, step: float) -> Manifold:
-    """What lies between the contours and where they have moved to."""
-    count = len(wave.points)
-    low = np.column_stack((wave.points, np.full(count, level)))
-    high = np.column_stack((wave.points + way * wave.speed, np.full(count, level + step)))
-    floor = np.asarray(triangulate(wave.rings, 0.0), np.int64).reshape(-1, 3)
-    a = np.arange(count)
-    b = wave.after
-    walls = np.vstack((np.column_stack((a, b, b + count)), np.column_stack((a, b + count, a + count))))
-    # The lid has the triangles of the floor: between events they stay turned the same way round, or nearly so.
-    triangles = np.vstack((floor[:, ::-1], floor + count, walls))
-    solid = Manifold(Mesh64(np.vstack((low, high)), triangles.astype(np.uint64)))
-    if solid.status() != Error.NoError:
-        raise NoSolid("Extrusion: the taper makes no solid of this outline: give it a coarser tolerance")
-    return solid
+def _walls(wave: Wavefront, nodes: Floats) -> list[NDArray[np.int64]]:
+    """The triangles of each wall, (k, 3) numbers of nodes."""
+    onwards: list[dict[int, list[int]]] = [{} for _ in wave.along]
+    for face, begin, end in wave.arcs:
+        onwards[face].setdefault(begin, []).append(end)
+    return [
+        _filled([np.column_stack((nodes[loop, :2] @ along, nodes[loop, 2])) for loop in loops], loops)
+        for along, arcs in zip(wave.along, onwards, strict=True)
+        if (loops := _loops(arcs))
+    ]
+
+
+def _lid(wave: Wavefront, nodes: Floats) -> list[NDArray[np.int64]]:
+    return [_filled([nodes[ring, :2] for ring in wave.lid], wave.lid)] if wave.lid else []
+
+
+def _loops(onwards: dict[int, list[int]]) -> list[list[int]]:
+    """Rings of nodes, from each node's followers; every arc is in one of them."""
+    loops = []
+    while onwards:
+        first = here = next(iter(onwards))
+        loop = []
+        while True:
+            loop.append(here)
+            followers = onwards[here]
+            there = followers.pop()
+            if not followers:
+                del onwards[here]
+            here = there
+            if here == first:
+                break
+        loops.append(loop)
+    return loops
+
+
+def _filled(flat: list[Floats], loops: list[list[int]]) -> NDArray[np.int64]:
+    """Triangles (k, 3), as numbers of nodes, of loops given in the plane as well."""
+    numbers = np.concatenate(loops)
+    corners = np.asarray(triangulate([np.ascontiguousarray(points) for points in flat], 0.0), np.int64)
+    return numbers[corners.reshape(-1, 3)]
