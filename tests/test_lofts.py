@@ -7,7 +7,7 @@ import pytest
 
 from solidtree.model.script import circle, difference, loft, path, polygon, rectangle
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.lofts import solid_of_loft
+from solidtree.model.solid.outlines.lofts import solid_of_loft
 
 
 def made(node, tolerance=0.05):

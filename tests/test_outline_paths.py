@@ -13,7 +13,7 @@ from solidtree.model.document.table import from_table, to_table
 from solidtree.model.outline.paths import fields_of, path_of
 from solidtree.model.path.path import Kind
 from solidtree.model.script import bezier, box, bspline, circle, extrude, measure, path, polygon, rectangle
-from solidtree.model.solid.sections import section_of
+from solidtree.model.solid.outlines.sections import section_of
 
 SQUARE = [("move", (0, 0)), ("line", (4, 0)), ("line", (4, 4)), ("line", (0, 4)), ("close",)]
 

@@ -8,7 +8,7 @@ from solidtree.model.exchange.drawings.outlines_in import document_of_text
 from solidtree.model.exchange.meshes_in import read_any
 from solidtree.model.outline.paths import path_of
 from solidtree.model.script import document_of, extrude, measure, outlines
-from solidtree.model.solid.sections import section_of
+from solidtree.model.solid.outlines.sections import section_of
 
 SVG = """<svg xmlns="http://www.w3.org/2000/svg" width="100mm" height="50mm" viewBox="0 0 100 50">
 <rect id="plate" x="10" y="10" width="30" height="20" fill="#ff0000"/>

@@ -10,7 +10,7 @@ from solidtree.model.document.outlines import Bezier, BSpline, Path, Polygon
 from solidtree.model.project.project_file import open_project, save_project
 from solidtree.model.script import bezier, box, bspline, circle, document_of, evaluate, extrude, path, rectangle, union
 from solidtree.model.solid.information import information
-from solidtree.model.solid.profiles import figures_of, profile_of
+from solidtree.model.solid.outlines.profiles import figures_of, profile_of
 
 SQUARE = "M0 0H10V10H0Z "
 

@@ -22,7 +22,7 @@ from solidtree.model.operations.pasting import clip
 from solidtree.model.operations.sizing import field_of, size_handles, sized
 from solidtree.model.script import box, document_of, parameter, sphere, union
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.profiles import profile_of
+from solidtree.model.solid.outlines.profiles import profile_of
 
 DRAWN, SEEDS = 1500, 4  # of which a good third is refused: more than two thousand edits in all
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from solidtree.model.script import bezier, circle, path, polygon, rectangle
-from solidtree.model.solid.sheet import sheet_of
+from solidtree.model.solid.outlines.sheet import sheet_of
 
 
 def area(mesh) -> float:

@@ -13,7 +13,7 @@ from solidtree.model.outline.sweeping import path_frames, start_frame
 from solidtree.model.path.shapes import arc
 from solidtree.model.script import circle, difference, path, pipe, rectangle, sweep
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.sweeps import solid_of_pipe, solid_of_sweep
+from solidtree.model.solid.outlines.sweeps import solid_of_pipe, solid_of_sweep
 
 
 def line(*places, close=False):

@@ -8,7 +8,7 @@ from manifold3d import CrossSection, FillRule, JoinType
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.script import circle, extrude, measure, path, polygon, rectangle
-from solidtree.model.solid.taper import tapered
+from solidtree.model.solid.outlines.taper import tapered
 
 
 def ring(points) -> CrossSection:

@@ -41,7 +41,7 @@ def measured_words(node: Node, values: dict[str, float]) -> tuple[str, str]:
     none = figure(None)
     if len(getattr(node, "points", ())) > MOST_POINTS:
         return none, none
-    from ...model.solid.profiles import figures_of, profile_of
+    from ...model.solid.outlines.profiles import figures_of, profile_of
 
     try:
         path, _ = profile_of(resolve_fields(node, values, ()).placed())

@@ -134,8 +134,8 @@ def render(options: argparse.Namespace) -> int:
         raise Refusal(f"at most {MOST_ACTIVE} sections open a picture at once, not {len(sections)}")
     bar = Bar(document)
     try:
+        from ...model.solid.outlines.sheet import sheet_of
         from ...model.solid.results import evaluate_document
-        from ...model.solid.sheet import sheet_of
 
         evaluation = evaluate_document(document, options.tolerance, progress=bar)
     finally:

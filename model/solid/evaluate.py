@@ -19,18 +19,18 @@ from ..document.nodes import Broken, Node, Union, range_fault
 from ..document.outlines import is_outline
 from ..document.placement import IDENTITY, product
 from ..document.primitives import Halfspace
-from . import from_outlines as from_outlines  # these three register what they make
-from . import lofts as lofts
-from . import sweeps as sweeps
 from .combine import Cuts, Operand, joint_key
 from .copies import MOST_OCCURRENCES, copies, occurrence_count
-from .drawn import drawn_solid
 from .entry import Bounds, Entry, Key, Problem, Steps, Wanted
 from .failure import NoSolid
 from .leaves import solid_of
 from .maps import chained, matrix_of, moved, placed_tolerance, tolerance_before
 from .operations import JOINING, OPERATIONS, sound
-from .profiles import outline_problems
+from .outlines import from_outlines as from_outlines  # these three register what they make
+from .outlines import lofts as lofts
+from .outlines import sweeps as sweeps
+from .outlines.drawn import drawn_solid
+from .outlines.profiles import outline_problems
 from .tessellation import DEFAULT_TOLERANCE
 from .unbounded import Ends, bounding_reach, box_within, halfspace_box, mapped, planes_of
 

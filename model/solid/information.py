@@ -13,8 +13,8 @@ from ..document.tree import walk
 from ..measuring.measure import Measures
 from .evaluate import Evaluator
 from .maps import moved
+from .outlines.profiles import figures_of
 from .places import places_of
-from .profiles import figures_of
 from .results import ProfileResult, SolidResult, evaluate_document, measures_of
 
 

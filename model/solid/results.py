@@ -20,7 +20,7 @@ from ..worker.shown import Message
 from .display import DisplayMesh, display_mesh
 from .entry import Entry, Problem
 from .evaluate import Evaluator
-from .profiles import profile_of
+from .outlines.profiles import profile_of
 from .provenance import occurrences, owners_of_runs
 from .tessellation import DEFAULT_TOLERANCE
 

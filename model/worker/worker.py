@@ -21,8 +21,8 @@ from ..solid.display import DisplayMesh
 from ..solid.entry import Superseded
 from ..solid.evaluate import Evaluator
 from ..solid.examine import examine
+from ..solid.outlines.sheet import sheet_of
 from ..solid.results import display_of, profile_result, result_of
-from ..solid.sheet import sheet_of
 from .shown import Message, shown_key
 
 if TYPE_CHECKING:

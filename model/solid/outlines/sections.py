@@ -6,16 +6,16 @@ import numpy as np
 from manifold3d import CrossSection, FillRule
 from numpy.typing import NDArray
 
-from ..document.errors import Refusal
-from ..document.nodes import Broken, Difference, Intersection, LinearArray, Mirror, Node, PolarArray, range_fault
-from ..document.outlines import Circle
-from ..outline.paths import own_path
-from ..path.flatten import flatten
-from ..path.path import Path
-from .copies import copies
-from .failure import NoSolid
-from .maps import placed_tolerance
-from .tessellation import MAX_SEGMENTS, circle_segments
+from ...document.errors import Refusal
+from ...document.nodes import Broken, Difference, Intersection, LinearArray, Mirror, Node, PolarArray, range_fault
+from ...document.outlines import Circle
+from ...outline.paths import own_path
+from ...path.flatten import flatten
+from ...path.path import Path
+from ..copies import copies
+from ..failure import NoSolid
+from ..maps import placed_tolerance
+from ..tessellation import MAX_SEGMENTS, circle_segments
 
 MOST_POINTS = 300_000
 """Of an outline; a solid of more would fill the memory."""

@@ -6,8 +6,8 @@ from functools import singledispatch
 
 from manifold3d import Manifold
 
-from ..document.nodes import Node
-from .failure import NoSolid
+from ...document.nodes import Node
+from ..failure import NoSolid
 
 
 @singledispatch

@@ -7,17 +7,17 @@ import math
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from ..document.from_outlines import Extrude, Revolve
-from ..document.nodes import Node, range_fault
-from ..document.outlines import CURVES
-from ..outline.paths import path_of
-from ..path.path import Contour, Path
+from ...document.from_outlines import Extrude, Revolve
+from ...document.nodes import Node, range_fault
+from ...document.outlines import CURVES
+from ...outline.paths import path_of
+from ...path.path import Contour, Path
+from ..failure import NoSolid
+from ..leaves import fineness_of, segments_of
+from ..tessellation import MAX_SEGMENTS
 from .drawn import drawn_solid
-from .failure import NoSolid
-from .leaves import fineness_of, segments_of
 from .sections import area_of, section_of
 from .taper import tapered
-from .tessellation import MAX_SEGMENTS
 
 STEEPEST = 89.0
 

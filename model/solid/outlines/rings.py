@@ -9,7 +9,7 @@ import numpy as np
 from manifold3d import CrossSection, Error, Manifold, Mesh64, OpType, triangulate
 from numpy.typing import NDArray
 
-from .failure import NoSolid, words
+from ..failure import NoSolid, words
 
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]

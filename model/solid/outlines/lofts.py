@@ -8,12 +8,12 @@ import numpy as np
 from manifold3d import Manifold, triangulate
 from numpy.typing import NDArray
 
-from ..document.from_outlines import Loft
-from ..document.nodes import Node
-from ..document.placement import Placement
+from ...document.from_outlines import Loft
+from ...document.nodes import Node
+from ...document.placement import Placement
+from ..failure import NoSolid
+from ..maps import placed_tolerance
 from .drawn import drawn_solid
-from .failure import NoSolid
-from .maps import placed_tolerance
 from .rings import MOST_POINTS, Floats, Numbers, edges_of, stretched
 from .sections import section_of
 

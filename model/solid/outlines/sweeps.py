@@ -9,17 +9,17 @@ import numpy as np
 from manifold3d import Manifold
 from numpy.typing import NDArray
 
-from ..document.errors import Refusal
-from ..document.from_outlines import Pipe, Sweep
-from ..outline.paths import path_of
-from ..outline.sweeping import Frames, path_frames
-from ..path.path import Path
+from ...document.errors import Refusal
+from ...document.from_outlines import Pipe, Sweep
+from ...outline.paths import path_of
+from ...outline.sweeping import Frames, path_frames
+from ...path.path import Path
+from ..failure import NoSolid
+from ..leaves import fineness_of
+from ..tessellation import MAX_SURFACE_SEGMENTS, circle_segments
 from .drawn import drawn_solid
-from .failure import NoSolid
-from .leaves import fineness_of
 from .rings import Floats, Numbers, Ring, bar, crossings, united
 from .sections import section_of
-from .tessellation import MAX_SURFACE_SEGMENTS, circle_segments
 
 STEEP = 30.0
 """Degrees of a corner; where rings cross beside a smaller one, what lies between them is filled."""

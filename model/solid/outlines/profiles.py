@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from ..document.errors import Refusal
-from ..document.nodes import Broken, Node, range_fault
-from ..document.outlines import OUTLINES
-from ..document.placement import Placement
-from ..outline.paths import in_plane, own_path, path_of
-from ..path.path import Path
-from .entry import Problem
-from .failure import NoSolid
+from ...document.errors import Refusal
+from ...document.nodes import Broken, Node, range_fault
+from ...document.outlines import OUTLINES
+from ...document.placement import Placement
+from ...outline.paths import in_plane, own_path, path_of
+from ...path.path import Path
+from ..entry import Problem
+from ..failure import NoSolid
 from .sections import area_of
 
 LARGEST = 1e12

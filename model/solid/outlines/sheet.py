@@ -8,14 +8,14 @@ import numpy as np
 from manifold3d import triangulate
 from numpy.typing import NDArray
 
-from ..document.nodes import Node
-from ..document.placement import Placement
-from ..outline.paths import path_of
-from ..path.flatten import chords
-from .display import DisplayMesh
-from .failure import NoSolid
-from .maps import placed_tolerance
-from .provenance import occurrences
+from ...document.nodes import Node
+from ...document.placement import Placement
+from ...outline.paths import path_of
+from ...path.flatten import chords
+from ..display import DisplayMesh
+from ..failure import NoSolid
+from ..maps import placed_tolerance
+from ..provenance import occurrences
 from .sections import area_of
 
 Floats = NDArray[np.float64]

@@ -9,7 +9,7 @@ import numpy as np
 from manifold3d import CrossSection, Error, FillRule, Manifold, Mesh64, triangulate
 from numpy.typing import NDArray
 
-from .failure import NoSolid
+from ..failure import NoSolid
 from .wavefront import Wavefront
 
 Floats = NDArray[np.float64]

@@ -1,0 +1,1 @@
+"""Solids that outlines make, and the areas that outlines enclose."""
