@@ -87,7 +87,6 @@ def test_a_loft_keeps_every_outline_in_its_place():
         ("box", ["n1"], "no solid of outlines called"),
         ("extrude", ["n5"], "is no outline"),
         ("extrude", ["n4"], r"“open” is open, it ends at \(9, 0\): close it first"),
-        ("revolve", ["n1", "n4"], "“open” is open"),
         ("extrude", [], "select the outlines"),
         ("sweep", ["n1"], "takes two"),
         ("sweep", ["n3", "n4"], "neither is one"),
