@@ -9,11 +9,10 @@ from __future__ import annotations
 
 import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
-from pointer import swing, until
-from PySide6.QtCore import QCoreApplication, QEvent, QObject, QSettings
+from pointer import opened, swing, until
+from PySide6.QtCore import QCoreApplication, QEvent, QObject
 from PySide6.QtGui import QMouseEvent
 
 SECONDS = 4.0
@@ -44,24 +43,12 @@ def plate():
 
 def dragged(application: QCoreApplication) -> tuple[float, float, list[float], tuple[int, int], object, object]:
     """Pictures and fresh meshes a second, waits in seconds, and size, mesh and camera of the window at the end."""
-    from solidtree.gui.application import spare_collections
-    from solidtree.gui.settings import Settings
-    from solidtree.gui.window import MainWindow
-    from solidtree.model.editing.session import Session
     from solidtree.render.camera import project
 
     home = tempfile.TemporaryDirectory(prefix="solidtree-bench-")
     document = plate()
-    settings = Settings(QSettings(str(Path(home.name, "settings.ini")), QSettings.Format.IniFormat))
-    window = MainWindow(Session(document), settings)
-    window.resize(1280, 820)
-    window.show()
-    window.start()
+    window, viewer = opened(document, home.name)
     viewport = window.viewport
-    until(lambda: viewport.viewer is not None and bool(viewport.viewer.scene.meshes) and not window.evaluation.waiting)
-    viewer = viewport.viewer
-    assert viewer is not None
-    spare_collections()
     (root,) = document.solids
     hole = root.children[56]
     window.session.select([hole.id])

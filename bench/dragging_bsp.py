@@ -10,11 +10,9 @@ from __future__ import annotations
 import sys
 import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
-from pointer import swing, until
-from PySide6.QtCore import QSettings
+from pointer import opened, swing, until
 
 SECONDS, WARM = 6.0, 2.0  # of a drag, and those at its beginning that do not count: what stays is being sorted
 ROUNDS = 2
@@ -41,18 +39,8 @@ class Drags:
     """One window, and the drags in it."""
 
     def __init__(self, home: str) -> None:
-        from solidtree.gui.application import spare_collections
-        from solidtree.gui.settings import Settings
-        from solidtree.gui.window import MainWindow
-        from solidtree.model.editing.session import Session
-
-        settings = Settings(QSettings(str(Path(home, "settings.ini")), QSettings.Format.IniFormat))
-        self.window = window = MainWindow(Session(parts()), settings)
-        window.resize(1280, 820)
-        window.show()
-        window.start()
-        until(lambda: window.viewport.viewer is not None and not window.evaluation.waiting)
-        spare_collections()
+        self.window, _ = opened(parts(), home)
+        window = self.window
         self.root = window.session.document.solids[0]
         window.handles.set_snapping(False)
         window.session.select([self.root.id])

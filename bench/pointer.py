@@ -5,14 +5,17 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
-from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPointF, Qt, QTimer
+from PySide6.QtCore import QCoreApplication, QEvent, QEventLoop, QPointF, QSettings, Qt, QTimer
 from PySide6.QtGui import QMouseEvent
 
 if TYPE_CHECKING:
     from solidtree.gui.window import MainWindow
+    from solidtree.model.document.document import Document
+    from solidtree.render.viewer import Viewer
 
 RATE = 125.0  # moves a second, as a mouse reports them
 NONE, LEFT = Qt.MouseButton.NoButton, Qt.MouseButton.LeftButton
@@ -25,6 +28,25 @@ def until(done: Callable[[], bool], seconds: float = 60.0) -> None:
         loop = QEventLoop()  # which sleeps between events, as the program's own does
         QTimer.singleShot(50, loop.quit)
         loop.exec()
+
+
+def opened(document: Document, home: str) -> tuple[MainWindow, Viewer]:
+    """The program's window with a document, shown and evaluated; its settings are kept in the folder `home`."""
+    from solidtree.gui.application import spare_collections
+    from solidtree.gui.settings import Settings
+    from solidtree.gui.window import MainWindow
+    from solidtree.model.editing.session import Session
+
+    settings = Settings(QSettings(str(Path(home, "settings.ini")), QSettings.Format.IniFormat))
+    window = MainWindow(Session(document), settings)
+    window.resize(1280, 820)
+    window.show()
+    window.start()
+    viewport = window.viewport
+    until(lambda: viewport.viewer is not None and bool(viewport.viewer.scene.meshes) and not window.evaluation.waiting)
+    assert viewport.viewer is not None
+    spare_collections()
+    return window, viewport.viewer
 
 
 def swing(

@@ -9,12 +9,10 @@ from __future__ import annotations
 
 import tempfile
 import time
-from pathlib import Path
 
 import numpy as np
 from dragging import SECONDS, bare
-from pointer import swing, until
-from PySide6.QtCore import QSettings
+from pointer import opened, swing, until
 
 PROFILE = [(0, 0), (14, 0), (18, 10), (6, 24), (10, 40), (11, 44), (9, 44), (8, 40), (4, 24), (15, 10), (10, 3), (0, 3)]
 POINT = 2  # the belly
@@ -22,26 +20,14 @@ POINT = 2  # the belly
 
 def dragged() -> tuple[float, float, tuple[int, int], object, object]:
     """Pictures and fresh meshes a second, and size, mesh and camera of the window at the end."""
-    from solidtree.gui.application import spare_collections
-    from solidtree.gui.settings import Settings
-    from solidtree.gui.window import MainWindow
-    from solidtree.model.editing.session import Session
     from solidtree.model.outline.frames import frame_of
     from solidtree.model.script import bspline, document_of, revolve
     from solidtree.render.camera import project
 
     home = tempfile.TemporaryDirectory(prefix="solidtree-bench-")
     document = document_of(vase=revolve(bspline(PROFILE)))
-    settings = Settings(QSettings(str(Path(home.name, "settings.ini")), QSettings.Format.IniFormat))
-    window = MainWindow(Session(document), settings)
-    window.resize(1280, 820)
-    window.show()
-    window.start()
+    window, viewer = opened(document, home.name)
     viewport = window.viewport
-    until(lambda: viewport.viewer is not None and bool(viewport.viewer.scene.meshes) and not window.evaluation.waiting)
-    viewer = viewport.viewer
-    assert viewer is not None
-    spare_collections()
     (root,) = document.solids
     (profile,) = root.children
     window.session.select([profile.id])

@@ -216,3 +216,8 @@ def test_open_curves_and_curves_in_space_are_refused():
         combined("union", [shapes.rectangle(1, 1).transformed(np.eye(3, 4))])
     with pytest.raises(Refusal, match="union, difference"):
         combined("sum", [])
+
+
+def test_what_reaches_too_far_is_refused():
+    with pytest.raises(Refusal, match=r"farther than 1e\+09 mm"):
+        combined("union", [circle(0, 5), circle(1e11, 5)])

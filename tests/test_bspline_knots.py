@@ -310,3 +310,10 @@ def test_a_parameter_that_is_a_knot_but_for_rounding_is_the_knot():
     assert more.knots[4:6].tolist() == [0.3, 0.3]
     fewer, deviation = knots.with_multiplicity(more, 0.3, 1)
     assert len(fewer.points) == 5 and deviation <= 1e-13
+
+
+@pytest.mark.parametrize("times", [5, 10**9, 10**30])
+def test_more_knots_than_hold_together_are_refused_however_many(times):
+    spline = BSpline(np.array([[0.0, 0], [1, 2], [3, 2], [4, 0]]), 3, np.array([0.0, 0, 0, 0, 1, 1, 1, 1]))
+    with pytest.raises(Refusal, match="holds together with 3 at most"):
+        knots.inserted(spline, 0.5, times)

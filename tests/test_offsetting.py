@@ -9,8 +9,10 @@ from manifold3d import CrossSection, FillRule, JoinType
 from solidtree.model.document.errors import Refusal
 from solidtree.model.path.areas.offsetting import offset, outline
 from solidtree.model.path.flatten import flatten
-from solidtree.model.path.path import Kind, Path
+from solidtree.model.path.path import Contour, Kind, Path
 from solidtree.model.path.shapes import ellipse, rectangle, star
+from solidtree.model.spline.bspline import BSpline
+from solidtree.model.spline.knots import clamped_knots
 
 TOLERANCE = 1e-3
 CIRCLE = ellipse((0, 0), 10, exact=True)
@@ -157,3 +159,21 @@ def test_miters_end_at_their_limit() -> None:
 def test_what_makes_no_offset_is_refused(call, words: str) -> None:
     with pytest.raises(Refusal, match=words):
         call()
+
+
+def test_what_would_reach_too_far_is_refused():
+    for wide in (CIRCLE.transformed(np.array([[1e9, 0, 0], [0, 1e9, 0]])), CIRCLE):
+        with pytest.raises(Refusal, match=r"farther than 1e\+09 mm"):
+            offset(wide, 1e12, 2)
+        with pytest.raises(Refusal, match=r"farther than 1e\+09 mm"):
+            outline(wide, 1e12, 2)
+
+
+def test_weights_that_ask_for_too_many_points_are_refused():
+    corners = np.array([[0, 0], [9, -3], [8, 9], [-4, 6], [0, 0]], float)
+    spline = BSpline(corners, 4, clamped_knots(5, 4), np.array([1, 1e-6, 1, 1, 1]))
+    extreme = Path((Contour.of_segments([spline], True),))
+    with pytest.raises(Refusal, match="points of the curve; take a coarser one"):
+        offset(extreme, 1, TOLERANCE)
+    with pytest.raises(Refusal, match="points of the curve; take a coarser one"):
+        outline(extreme, 1, TOLERANCE)

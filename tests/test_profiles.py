@@ -8,7 +8,23 @@ import pytest
 from solidtree.model.document.errors import Refusal
 from solidtree.model.document.outlines import Bezier, BSpline, Path, Polygon
 from solidtree.model.project.project_file import open_project, save_project
-from solidtree.model.script import bezier, box, bspline, circle, document_of, evaluate, extrude, path, rectangle, union
+from solidtree.model.script import (
+    bezier,
+    box,
+    bspline,
+    circle,
+    document_of,
+    evaluate,
+    extrude,
+    linear_array,
+    measure,
+    path,
+    polygon,
+    rectangle,
+    revolve,
+    union,
+)
+from solidtree.model.solid.evaluate import Evaluator
 from solidtree.model.solid.information import information
 from solidtree.model.solid.outlines.profiles import figures_of, profile_of
 
@@ -124,3 +140,47 @@ def test_outlines_of_any_letters_and_numbers_have_a_path_or_a_fault():
         if found is not None:
             assert figures_of(found).length >= 0
     assert len(outcomes) == 6
+
+
+ARCH = bezier([(5, 0), (15, 0), (15, 10), (5, 10)], closed=True)
+
+
+def problem(solid):
+    return " ".join(problem.message for problem in Evaluator().evaluate(solid, 0.05).problems)
+
+
+def test_the_tolerance_of_a_solid_is_that_of_its_outline_too():
+    area, middle = 60.0, 5.0 + 45 / 14  # Green; the middle of the arch, for Pappus
+    before = math.inf
+    for tolerance in (0.5, 0.1, 0.01, 0.001):
+        drawn = abs(measure(extrude(ARCH, 3, tolerance=tolerance)).volume / (3 * area) - 1)
+        turned = abs(measure(revolve(ARCH, tolerance=tolerance)).volume / (2 * math.pi * middle * area) - 1)
+        assert drawn < tolerance / 5 and turned < tolerance / 2 and drawn + turned < before
+        before = drawn + turned
+
+
+@pytest.mark.parametrize(
+    "outline",
+    [
+        polygon([(0, 0), (5e10, 0), (0, 5e10)]),
+        rectangle(1e12, 1),
+        circle(3e10),
+        circle(5).at(1e11) + circle(5),
+        linear_array(circle(5), count=2, step=(1e12, 0, 0)),
+    ],
+)
+def test_an_outline_too_far_away_for_polygons_is_told_in_words(outline):
+    assert "farther than 1e+10 mm" in problem(extrude(outline, 5))
+    information(document_of(outline), 0.05)
+
+
+def test_what_would_fill_the_memory_is_refused_before_it_is_made():
+    fine = circle(1e5, segments=4096).at(2e5)
+    assert "points; take a coarser tolerance" in problem(revolve(fine))
+    assert "points; take a coarser tolerance" in problem(extrude(fine, 5, twist=90))
+    assert "makes 585,225 points" in problem(extrude(bezier(ARCH.points, weights=[1, 1e-9, 1, 1], closed=True), 5))
+
+
+def test_what_encloses_nothing_is_not_said_to_lie_left_of_the_axis():
+    assert problem(revolve(path("M 5 5 L 15 5 Z"))) == "Revolution: the outline encloses nothing"
+    assert "lies at x < 0" in problem(revolve(circle(4).at(-10)))

@@ -13,6 +13,8 @@ from solidtree.model.outline.sweeping import path_frames, start_frame
 from solidtree.model.path.shapes import arc
 from solidtree.model.script import circle, difference, path, pipe, rectangle, sweep
 from solidtree.model.solid.evaluate import Evaluator
+from solidtree.model.solid.failure import NoSolid
+from solidtree.model.solid.outlines import sweeps
 from solidtree.model.solid.outlines.sweeps import solid_of_pipe, solid_of_sweep
 
 
@@ -288,3 +290,14 @@ def test_the_outline_stands_where_the_start_frame_says():
 )
 def test_what_cannot_be_made_is_told_in_words(node, words):
     assert words in fault(node)
+
+
+def test_too_many_points_are_refused_before_they_are_made(monkeypatch):
+    monkeypatch.setattr(sweeps, "_placed", None)
+    for node in (sweep(circle(1e4, segments=4096), quarter(1e9)), pipe(quarter(1e9), 1e4, tolerance=1e-3)):
+        (problem,) = Evaluator().evaluate(node, 0.05).problems
+        assert "take a coarser" in problem.message
+    with pytest.raises(NoSolid, match=r"^Sweep: it would have [\d,]+ points; take a coarser tolerance"):
+        solid_of_sweep(sweep(circle(1e4, segments=4096), quarter(1e6)), 0.05)
+    with pytest.raises(NoSolid, match=r"^Pipe: it would have [\d,]+ points; take a coarser tolerance"):
+        solid_of_pipe(pipe(quarter(1e5), 1e4), 0.001)

@@ -24,6 +24,7 @@ from ...model.document.errors import Refusal
 from ...model.document.expression import Expression
 from ...model.document.expression import number as number_of
 from ..icons import icon
+from ..panels.heading import heading
 from ..panels.number_field import NumberField, Steps
 from ..partition.order_bar import StepSlider
 from ..theme import colours_now
@@ -189,13 +190,13 @@ class ConstructionPage(QScrollArea):
         inside.addLayout(along)
         inside.addWidget(self.interval)
         inside.addWidget(self.value)
-        inside.addWidget(_heading("Levels", body))
+        inside.addWidget(heading("Levels", body))
         inside.addWidget(self.lerp)
         inside.addLayout(counts)
-        inside.addWidget(_heading("Basis", body))
+        inside.addWidget(heading("Basis", body))
         inside.addWidget(self.bars)
         inside.addWidget(self.sum)
-        inside.addWidget(_heading("Polynomial", body))
+        inside.addWidget(heading("Polynomial", body))
         inside.addWidget(self.polynomials)
         layout = QVBoxLayout(body)
         layout.setContentsMargins(10, 8, 10, 8)
@@ -319,11 +320,4 @@ def _words(parent: QWidget) -> QLabel:
     label = QLabel(parent)
     label.setProperty("muted", True)
     label.setWordWrap(True)
-    return label
-
-
-def _heading(title: str, parent: QWidget) -> QLabel:
-    label = QLabel(title, parent)
-    label.setProperty("heading", True)
-    label.setContentsMargins(0, 8, 0, 0)
     return label

@@ -23,6 +23,7 @@ from ...model.document.errors import Refusal
 from ...model.document.expression import number
 from ...model.document.outlines import Bezier, BSpline
 from ..icons import icon
+from ..panels.heading import heading
 from .asked_tip import AskedTip
 from .knot_section import KnotSection
 from .spline_edits import Previewed, do_and_tell, plain, would
@@ -93,11 +94,11 @@ class SplinePage(QScrollArea):
         layout.addWidget(self.facts)
         layout.addLayout(first)
         for title, part in (("Knots and basis functions", self.knots), ("Weight", self.weight)):
-            heading = _heading(title, body)
-            self._of_splines.append(heading)
-            layout.addWidget(heading)
+            above = heading(title, body)
+            self._of_splines.append(above)
+            layout.addWidget(above)
             layout.addWidget(part)
-        layout.addWidget(_heading("Conversion", body))
+        layout.addWidget(heading("Conversion", body))
         layout.addWidget(self.to_path)
         layout.addWidget(self.to_bspline)
         layout.addStretch(1)
@@ -197,10 +198,3 @@ def _wide(title: str, tip: str, parent: QWidget) -> QPushButton:
     button.setToolTip(tip)
     button.setAutoDefault(False)
     return button
-
-
-def _heading(title: str, parent: QWidget) -> QLabel:
-    label = QLabel(title, parent)
-    label.setProperty("heading", True)
-    label.setContentsMargins(0, 6, 0, 0)
-    return label

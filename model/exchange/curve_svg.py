@@ -12,10 +12,8 @@ from ..path.editing import convert
 from ..path.path import Contour, Kind, Path
 from ..project.disk import one_line
 from .curves_out import NamedCurves, bounds, circle_of
+from .outline_svg import LINE, MARGIN, page_of
 
-LINE = "#1d242d"
-STROKE = 0.35  # mm, a visible edge (ISO 128)
-MARGIN = 1.0  # mm around all
 _WORDS = {Kind.LINE: "L", Kind.QUADRATIC: "Q", Kind.CUBIC: "C"}
 
 
@@ -23,7 +21,6 @@ def svg_of(outlines: Sequence[NamedCurves], tolerance: float) -> str:
     """The drawing's text. Closed outlines that have a colour are filled with it, the others are lines."""
     low, high = bounds(outlines)
     low, high = low - MARGIN, high + MARGIN
-    width, height = (high - low).tolist()
     body, taken = [], set()
     for outline in outlines:
         path = Path(tuple(_plain(contour, tolerance) for contour in outline.path.contours), outline.path.rule)
@@ -37,17 +34,7 @@ def svg_of(outlines: Sequence[NamedCurves], tolerance: float) -> str:
             f"    <title>{escape(one_line(outline.name))}</title>",
             "  </path>",
         ]
-    view = f"{_text(low[0])} {_text(-high[1])} {_text(width)} {_text(height)}"
-    return "\n".join(
-        [
-            '<?xml version="1.0" encoding="UTF-8"?>',
-            f'<svg xmlns="http://www.w3.org/2000/svg" width="{_text(width)}mm" height="{_text(height)}mm"',
-            f'     viewBox="{view}" stroke-width="{STROKE}" stroke-linejoin="round">',
-            *body,
-            "</svg>",
-            "",
-        ]
-    )
+    return page_of(body, low, high)
 
 
 def path_data(path: Path) -> str:

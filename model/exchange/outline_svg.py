@@ -28,7 +28,6 @@ def svg_of(
     boxes = [box for named in outlines if (box := named.outline.bounds) is not None]
     low = np.min([box[0] for box in boxes], axis=0) - MARGIN if boxes else np.zeros(2)
     high = np.max([box[1] for box in boxes], axis=0) + MARGIN if boxes else np.ones(2)
-    width, height = (high - low).tolist()
     line = "none" if stroke is None else stroke
     body = []
     for number, named in enumerate(outlines):
@@ -42,12 +41,18 @@ def svg_of(
         data = "".join(_path(contour) for contour in named.outline.contours)
         body.append(f'    <path class="outline" fill-rule="evenodd" d="{data}"/>')
         body.append("  </g>")
-    view = f"{_text(low[0])} {_text(-high[1])} {_text(width)} {_text(height)}"
+    return page_of(body, low, high)
+
+
+def page_of(body: Sequence[str], low: NDArray[np.float64], high: NDArray[np.float64]) -> str:
+    """The text of a file whose page reaches from (2,) `low` to `high`, mm, v upwards."""
+    width, height = (high - low).tolist()
     return "\n".join(
         [
             '<?xml version="1.0" encoding="UTF-8"?>',
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{_text(width)}mm" height="{_text(height)}mm"',
-            f'     viewBox="{view}" stroke-width="{STROKE}" stroke-linejoin="round">',
+            f'     viewBox="{_text(low[0])} {_text(-high[1])} {_text(width)} {_text(height)}" stroke-width="{STROKE}" '
+            'stroke-linejoin="round">',
             *body,
             "</svg>",
             "",

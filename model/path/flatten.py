@@ -26,13 +26,13 @@ class Chords:
     parameter: Floats  # (n,) on that segment
 
 
-def flatten(path: Path, tolerance: float) -> list[Floats]:
+def flatten(path: Path, tolerance: float, most: int = MOST) -> list[Floats]:
     """(k, d) points a contour, in order, none further than `tolerance` mm from the curve between them.
 
     Nodes are hit exactly. A closed contour does not repeat its first point, as CrossSection wants them. Raises
-    Refusal for a tolerance that is not above 0, or so fine that the points would fill the memory.
+    Refusal for a tolerance that is not above 0, or so fine that there would be more than `most` points.
     """
-    points, starts, _ = _chords(path, tolerance, None)
+    points, starts, _ = _chords(path, tolerance, None, most)
     ends = starts[1:] - np.array([contour.closed for contour in path.contours], np.intp)
     return [points[begin:end] for begin, end in zip(starts[:-1].tolist(), ends.tolist(), strict=True)]
 
@@ -44,7 +44,9 @@ def chords(path: Path, tolerance: float) -> Chords:
     return Chords(points, starts, segment, where[0] if where else np.zeros(0))
 
 
-def _chords(path: Path, tolerance: float, where: list[Floats] | None) -> tuple[Floats, Numbers, Numbers]:
+def _chords(
+    path: Path, tolerance: float, where: list[Floats] | None, most: int = MOST
+) -> tuple[Floats, Numbers, Numbers]:
     if not (np.isfinite(tolerance) and tolerance > 0.0):
         raise Refusal(f"the tolerance of a curve must be above 0 mm, not {tolerance!r:.40}")
     if not path.contours:
@@ -56,8 +58,8 @@ def _chords(path: Path, tolerance: float, where: list[Floats] | None) -> tuple[F
         counts[group.place] = chord_counts(group.controls, tolerance, group.weights)
         owner[group.place] = group.segment
     total = int(counts.sum())
-    if total > MOST:
-        raise Refusal(f"a tolerance of {tolerance:g} mm makes {total:,} points of this path; take a coarser one")
+    if total > most:
+        raise Refusal(f"a tolerance of {tolerance:g} mm makes {total:,} points of the curve; take a coarser one")
     # Before the points of a contour's pieces stands its first point.
     segments = np.cumsum([0, *(len(contour) for contour in path.contours)])
     contour = np.searchsorted(segments, owner, "right") - 1

@@ -68,7 +68,7 @@ def multiplicity(spline: BSpline, t: float) -> int:
 
 def inserted(spline: BSpline, t: float, times: int = 1) -> BSpline:
     """With a knot more at the parameter, or several (Boehm 1980). Raises Refusal outside and above `degree` of them."""
-    return refined(spline, np.full(times, float(t)))
+    return refined(spline, np.full(min(times, spline.degree + 1), float(t)))
 
 
 def refined(spline: BSpline, parameters: ArrayLike | None = None) -> BSpline:

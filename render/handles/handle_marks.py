@@ -6,13 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from vtkmodules.vtkCommonDataModel import vtkPolyData
-from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkProp
+from vtkmodules.vtkRenderingCore import vtkActor, vtkProp
 
 from ..camera import Camera, frame
+from ..curves.ink import ink_actor
 from ..look import LIGHT, Colour, Look, mixed, rgb
 from ..polydata import cells_of, points_of, set_cell_colours
-from ..shading import unlit
 from .handle import Handle, Role, Tone, caught
 
 WHITE, BLACK = (1.0, 1.0, 1.0), (0.0, 0.0, 0.0)
@@ -27,7 +26,7 @@ class HandleMarks:
         self.hover: str | None = None
         self.active: str | None = None
         self._look = LIGHT
-        self._solid, self._veil = _actor(), _actor()
+        self._solid, self._veil = ink_actor(), ink_actor()
 
     @property
     def props(self) -> Sequence[vtkProp]:
@@ -104,14 +103,3 @@ def _fill(actor: vtkActor, parts: list[tuple[NDArray[np.float64], NDArray[np.int
     counts = [len(triangles) for _, triangles, _ in parts]
     colours = np.repeat(np.array([colour for _, _, colour in parts]), counts, axis=0)
     set_cell_colours(data, np.round(255.0 * colours).astype(np.uint8))
-
-
-def _actor() -> vtkActor:
-    mapper = vtkPolyDataMapper()
-    mapper.SetInputData(vtkPolyData())
-    actor = vtkActor()
-    actor.SetMapper(mapper)
-    actor.PickableOff()
-    actor.VisibilityOff()
-    unlit(actor)
-    return actor

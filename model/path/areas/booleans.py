@@ -22,7 +22,7 @@ from ..flatten import flatten
 from ..path import Contour, Floats, Node, Numbers, Path, Segment
 from .arrangement import Arrangement, arranged
 from .meetings import TooMany, plain
-from .offsetting import FILL, through
+from .offsetting import FILL, check_near, through
 from .winding import windings
 
 KINDS = ("union", "difference", "intersection", "exclusion")
@@ -51,6 +51,7 @@ def combined(kind: str, paths: Sequence[Path], tolerance: float | None = None) -
     for path in paths:
         check_filled(path)
     paths = list(paths)
+    check_near(paths)
     given = [contour for path in paths for contour in path.contours]
     if not given:
         return Path(())

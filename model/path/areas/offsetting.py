@@ -26,6 +26,10 @@ SHARE = 0.25
 """Of the tolerance for the polygons and for the parallels each; the rest is for telling what lies on the boundary."""
 SHORTENED = 12
 """Halvings of a chord towards the end of a curve."""
+FARTHEST = 1e9
+"""mm from the origin; polygons are reckoned in whole multiples of 1e-8 mm, which 64 bits hold up to 2e10 mm."""
+MOST_POINTS = 50_000
+"""Of the polygons along a path; with more, which extreme weights ask for, it would take minutes."""
 MITER = 4.0
 """As SVG has it: how far from the node a miter may reach, in halves of the stroke's width."""
 
@@ -40,7 +44,9 @@ def offset(path: Path, distance: float, tolerance: float, join: str = "round", l
     _check(path, distance, tolerance, join, limit)
     if not all(contour.closed for contour in path.contours):
         raise Refusal("only a closed outline can be made larger or smaller: close it, or make a stroke of it")
-    filled = CrossSection([np.ascontiguousarray(p) for p in flatten(path, SHARE * tolerance)], FILL[path.rule])
+    filled = CrossSection(
+        [np.ascontiguousarray(p) for p in flatten(path, SHARE * tolerance, MOST_POINTS)], FILL[path.rule]
+    )
     half = abs(distance)
     if not half:
         return path
@@ -70,6 +76,7 @@ def outline(
     if ends not in CAPS:
         raise Refusal(f"a stroke ends {', '.join(CAPS)}, not “{ends!s:.40}”")
     half = 0.5 * width
+    flatten(path, SHARE * tolerance, MOST_POINTS)  # refuses what has too many
     region = _swept(path, half, tolerance, join, limit, ends)
     curves: list[Floats] = []
     for contour in path.contours:
@@ -92,6 +99,14 @@ def _check(path: Path, distance: float, tolerance: float, join: str, limit: floa
         raise Refusal(f"corners are joined {', '.join(JOINS)}, not “{join!s:.40}”")
     if not limit >= 1.0:
         raise Refusal(f"the limit of miters is 1 or more, not {limit:g}")
+    check_near([path], limit * abs(distance))
+
+
+def check_near(paths: list[Path], more: float = 0.0) -> None:
+    """Raises Refusal for paths that reach too far, `more` mm farther than they are, for polygons to be made of them."""
+    parts = [part for path in paths for contour in path.contours for part in (contour, *contour.splines)]
+    if parts and not max(np.abs(part.points).max() for part in parts) + more <= FARTHEST:
+        raise Refusal(f"it would reach farther than {FARTHEST:g} mm from the origin; that is too large to be exact")
 
 
 def _swept(path: Path, half: float, tolerance: float, join: str, limit: float, ends: str) -> CrossSection:

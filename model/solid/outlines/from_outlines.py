@@ -16,6 +16,7 @@ from ..failure import NoSolid
 from ..leaves import fineness_of, segments_of
 from ..tessellation import MAX_SEGMENTS
 from .drawn import drawn_solid
+from .rings import check_size
 from .sections import area_of, section_of
 from .taper import tapered
 
@@ -24,7 +25,7 @@ STEEPEST = 89.0
 
 @drawn_solid.register
 def solid_of_extrude(node: Extrude, tolerance: float) -> Manifold:
-    section = section_of(node.children[0], tolerance)
+    section = section_of(node.children[0], _fine(node, tolerance))
     if section.is_empty():
         raise NoSolid("Extrusion: the outline encloses nothing")
     height, below = float(node.height), float(node.below)
@@ -66,18 +67,36 @@ def _risen(node: Extrude, section: CrossSection, height: float, share: float, to
             )
             levels = math.radians(abs(twist)) * longest / (4 * fineness_of(node, tolerance)[1])
             divisions = max(divisions, math.ceil(levels))
-    return Manifold.extrude(section, height, min(divisions, MAX_SEGMENTS), twist, (scale, scale))
+    divisions = min(divisions, MAX_SEGMENTS)
+    _check_size(node, section, divisions + 2)
+    return Manifold.extrude(section, height, divisions, twist, (scale, scale))
 
 
 @drawn_solid.register
 def solid_of_revolve(node: Revolve, tolerance: float) -> Manifold:
-    section = _profile(node.children[0], tolerance)
-    reach = section.bounds()[2] if not section.is_empty() else 0.0
+    section = _profile(node.children[0], _fine(node, tolerance))
+    if section.is_empty():
+        raise NoSolid("Revolution: the outline encloses nothing")
+    reach = section.bounds()[2]
     if reach <= 0:
         raise NoSolid("Revolution: the outline lies at x < 0; only what is right of the y axis is turned")
     angle, start = min(float(node.angle), 360.0), float(node.start)
-    solid = section.revolve(segments_of(node, reach, tolerance), angle)
+    segments = segments_of(node, reach, tolerance)
+    _check_size(node, section, math.ceil(segments * angle / 360.0) + 1)
+    solid = section.revolve(segments, angle)
     return solid.rotate((0.0, 0.0, start)).as_original() if start else solid
+
+
+def _fine(node: Extrude | Revolve, tolerance: float) -> float:
+    """The tolerance of its outline: the node's own where it has one, also beside segments of its own."""
+    return tolerance if node.tolerance is None else float(node.tolerance)
+
+
+def _check_size(node: Extrude | Revolve, section: CrossSection, rings: int) -> None:
+    try:
+        check_size(rings, section.num_vert())
+    except NoSolid as fault:
+        raise NoSolid(f"{node.title}: {fault}") from None
 
 
 def _profile(outline: Node, tolerance: float) -> CrossSection:

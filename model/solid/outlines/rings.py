@@ -116,8 +116,7 @@ def bar(rings: Floats, normals: Floats, ring: Ring, lengths: Floats, steep: NDAr
     `normals` (n, 3) are the directions in which the bar goes on, `lengths` (n,) where along the path the rings are,
     `steep` (n,) the mitres, where no ring may cross the next. Raises NoSolid, with the length, where that is so.
     """
-    if rings.shape[0] * rings.shape[1] > MOST_POINTS:
-        raise NoSolid(f"it would have {rings.shape[0] * rings.shape[1]:,} points; take a coarser tolerance")
+    check_size(rings.shape[0], rings.shape[1])
     crossing = crossings(rings, normals)
     fault = crossing & (steep[:-1] | steep[1:])
     pieces = ring.pieces()
@@ -135,6 +134,12 @@ def bar(rings: Floats, normals: Floats, ring: Ring, lengths: Floats, steep: NDAr
         for piece in pieces:
             parts += _wedges(rings[place, piece], rings[place + 1, piece], onwards[piece])
     return united(parts)
+
+
+def check_size(rings: int, points: int) -> None:
+    """Raises NoSolid where so many rings of so many points would fill the memory; before they are made."""
+    if rings * points > MOST_POINTS:
+        raise NoSolid(f"it would have {rings * points:,} points; take a coarser tolerance")
 
 
 def united(parts: list[Manifold]) -> Manifold:

@@ -19,6 +19,8 @@ from ..tessellation import MAX_SEGMENTS, circle_segments
 
 MOST_POINTS = 300_000
 """Of an outline; a solid of more would fill the memory."""
+FARTHEST = 1e10
+"""mm; manifold3d reckons outlines in whole multiples of 1e-8 mm, of which 64 bits hold twice as far."""
 FILL = {"nonzero": FillRule.NonZero, "evenodd": FillRule.EvenOdd}
 
 
@@ -46,17 +48,19 @@ def section_of(node: Node, tolerance: float) -> CrossSection:
 
 
 def area_of(path: Path, tolerance: float) -> CrossSection:
-    """What a path in the plane fills. Raises NoSolid for one that is open or leaves the plane."""
+    """What a path in the plane fills. Raises NoSolid for one that is open, leaves the plane, or is too large or too
+    fine."""
     for contour in path.contours:
         if contour.dimension != 2:
             raise NoSolid("the curve leaves its plane; only a flat outline has an inside")
         if not contour.closed:
             place = ", ".join(f"{number:g}" for number in contour.points[-1])
             raise NoSolid(f"the curve is open, it ends at ({place}): close it to give it an inside")
-    rings = flatten(path, tolerance)
-    count = sum(map(len, rings))
-    if count > MOST_POINTS:
-        raise NoSolid(f"a tolerance of {tolerance:g} mm makes {count:,} points of the curve; take a coarser one")
+    try:
+        rings = flatten(path, tolerance, MOST_POINTS)
+    except Refusal as fault:
+        raise NoSolid(str(fault)) from None
+    _check_near(max((float(np.abs(points).max()) for points in rings if len(points)), default=0.0))
     return CrossSection([np.ascontiguousarray(points) for points in rings], FILL[path.rule])
 
 
@@ -66,6 +70,7 @@ def _own(node: Node, tolerance: float) -> CrossSection:
         segments = node.segments
         if segments is not None and segments > MAX_SEGMENTS:  # type: ignore[operator]
             raise NoSolid(f"{node.title}: segments must be at most {MAX_SEGMENTS}, not {segments:g}")
+        _check_near(radius, f"{node.label}: ")
         wanted = tolerance if node.tolerance is None else float(node.tolerance)  # type: ignore[arg-type]
         return CrossSection.circle(radius, int(segments or circle_segments(radius, wanted)))  # type: ignore[arg-type]
     try:
@@ -78,7 +83,7 @@ def _own(node: Node, tolerance: float) -> CrossSection:
 def _joined(node: Node, sections: list[CrossSection]) -> CrossSection:
     if isinstance(node, (LinearArray, PolarArray, Mirror)):
         maps = [_flat(matrix, node) for matrix in copies(node)]
-        sections = [section.transform(matrix) for matrix in maps for section in sections]
+        sections = [_moved(section, matrix, node) for matrix in maps for section in sections]
     result = sections[0]
     for section in sections[1:]:
         if isinstance(node, Difference):
@@ -91,7 +96,21 @@ def _joined(node: Node, sections: list[CrossSection]) -> CrossSection:
 
 
 def _placed(section: CrossSection, node: Node) -> CrossSection:
-    return section.transform(_flat(node.placement.matrix(), node)) if node.placement.steps else section
+    return _moved(section, _flat(node.placement.matrix(), node), node) if node.placement.steps else section
+
+
+def _moved(section: CrossSection, matrix: NDArray[np.float64], node: Node) -> CrossSection:
+    if section.is_empty():
+        return section
+    low_x, low_y, high_x, high_y = section.bounds()
+    corners = np.array([(x, y, 1.0) for x in (low_x, high_x) for y in (low_y, high_y)])
+    _check_near(float(np.abs(corners @ matrix.T).max()), f"{node.label}: ")
+    return section.transform(matrix)
+
+
+def _check_near(reach: float, who: str = "") -> None:
+    if not reach <= FARTHEST:
+        raise NoSolid(f"{who}reaches farther than {FARTHEST:g} mm from the origin; that is too large to be exact")
 
 
 def _flat(matrix: NDArray[np.float64], node: Node) -> NDArray[np.float64]:

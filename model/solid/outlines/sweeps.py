@@ -18,7 +18,7 @@ from ..failure import NoSolid
 from ..leaves import fineness_of
 from ..tessellation import MAX_SURFACE_SEGMENTS, circle_segments
 from .drawn import drawn_solid
-from .rings import Floats, Numbers, Ring, bar, crossings, united
+from .rings import Floats, Numbers, Ring, bar, check_size, crossings, united
 from .sections import section_of
 
 STEEP = 30.0
@@ -45,6 +45,7 @@ def solid_of_sweep(node: Sweep, tolerance: float) -> Manifold:
         longest = float(walls.max()) * max(scale, 1.0)
         step = path.length() * _twist_step(segments, tolerance / 2, reach, longest) / abs(twist)
     frames = _frames(node, path, tolerance / 2, reach, segments=segments, step=step)
+    _check_size(node, frames, len(ring.points))
     share = frames.lengths / frames.length
     spin, size = twist * share, 1.0 + (scale - 1.0) * share
     cosine, sine = (size * np.cos(spin))[:, None], (size * np.sin(spin))[:, None]
@@ -72,6 +73,7 @@ def solid_of_pipe(node: Pipe, tolerance: float) -> Manifold:
     around = segments or min(circle_segments(radius, tolerance / 2), MAX_SURFACE_SEGMENTS)
     path = path_of(node.children[0])
     frames = _frames(node, path, tolerance / 2, radius, segments=segments, mitred=False)
+    _check_size(node, frames, around)
     angle = 2.0 * np.pi * np.arange(around) / around
     circle = np.column_stack((np.cos(angle), np.sin(angle)))
     ends = _dome(around) if node.rounded else np.zeros((0, 2))
@@ -94,6 +96,13 @@ def _frames(node: Sweep | Pipe, path: Path, tolerance: float, reach: float, **mo
     try:
         return path_frames(path, tolerance, reach, **more)
     except Refusal as fault:
+        raise NoSolid(f"{node.title}: {fault}") from None
+
+
+def _check_size(node: Sweep | Pipe, frames: Frames, points: int) -> None:
+    try:
+        check_size(len(frames.origins), points)
+    except NoSolid as fault:
         raise NoSolid(f"{node.title}: {fault}") from None
 
 
