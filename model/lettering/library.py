@@ -1,0 +1,179 @@
+"""The fonts that lettering can be set in: bundled with the program, installed on this computer, or in a project."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import re
+import sys
+from collections.abc import Iterable
+from dataclasses import dataclass
+from functools import lru_cache
+from importlib.resources import files
+from pathlib import Path
+
+from ..document.errors import Refusal
+from ..project.assets import default_store
+from .face import Face
+from .failing import failing
+from .opening import LARGEST, SFNT, face_count, open_face
+from .type1_face import style_of
+
+BUNDLED = ("DejaVuSans.ttf", "GFSDidot.otf")
+STANDARD = "DejaVu Sans"
+"""The font of new lettering, and the first in which a character is looked for that the chosen one lacks."""
+ENDINGS = (".ttf", ".otf", ".ttc", ".otc", ".pfa", ".pfb", ".t1", ".woff")
+HEADER = 32768
+"""Bytes of a Type 1 font in which its names stand."""
+_SAID = re.compile(rb"/(FamilyName|FullName|Weight)\s*\(([^()]*)\)")
+OPEN = 24
+"""Faces that are kept open at a time."""
+
+
+@dataclass(frozen=True, slots=True)
+class FontFile:
+    """Where a face lies, and what it is called."""
+
+    path: Path
+    number: int
+    family: str
+    style: str
+
+    @property
+    def name(self) -> str:
+        return self.family if self.style in ("", "Regular") else f"{self.family} {self.style}"
+
+
+def folders() -> list[Path]:
+    """Where this system keeps its fonts, the user's own first."""
+    home = Path.home()
+    if sys.platform == "win32":
+        local, windows = os.environ.get("LOCALAPPDATA"), os.environ.get("WINDIR", r"C:\Windows")
+        return [*([Path(local, "Microsoft", "Windows", "Fonts")] if local else []), Path(windows, "Fonts")]
+    if sys.platform == "darwin":
+        return [home / "Library/Fonts", Path("/Library/Fonts"), Path("/System/Library/Fonts")]
+    data = Path(os.environ.get("XDG_DATA_HOME") or home / ".local/share")
+    shared = (os.environ.get("XDG_DATA_DIRS") or "/usr/local/share:/usr/share").split(":")
+    return [data / "fonts", home / ".fonts", *(Path(one, "fonts") for one in shared if one)]
+
+
+@lru_cache(maxsize=1)
+def installed() -> tuple[FontFile, ...]:
+    """Every face of the bundled and the installed fonts, by name; files that cannot be read are left out."""
+    found: dict[str, FontFile] = {}
+    for path in (*_bundled(), *_files(folders())):
+        for face in _names_in(path):
+            found.setdefault(face.name.casefold(), face)
+    return tuple(sorted(found.values(), key=lambda face: face.name.casefold()))
+
+
+def find(name: str) -> FontFile | None:
+    """The face of that name; a family alone is its regular style. Upper and lower case are the same."""
+    wanted = " ".join(name.split()).casefold()
+    for path in _bundled():  # without a look at all that is installed
+        for face in _names_in(path):
+            if wanted in (face.name.casefold(), face.family.casefold()):
+                return face
+    faces = installed()
+    exact = next((face for face in faces if face.name.casefold() == wanted), None)
+    if exact is not None:
+        return exact
+    family = [face for face in faces if face.family.casefold() == wanted]
+    plain = ("regular", "roman", "book", "normal", "medium")
+    return min(family, key=lambda face: (face.style.casefold() not in plain, face.style), default=None)
+
+
+def face_of(name: str, asset: str = "", number: int = 0) -> Face:
+    """A face by its name, or from a font file among the assets by its SHA-256. Raises Refusal."""
+    if asset:
+        return _from_asset(asset, number)
+    found = find(name)
+    if found is None:
+        near = _near(name)
+        raise Refusal(f"no font “{name:.60}” is installed" + (f"; did you mean “{near}”?" if near else ""))
+    return _from_file(found.path, found.number, found.path.stat().st_mtime_ns)
+
+
+def fallbacks() -> list[Face]:
+    """The faces in which characters are looked for that the chosen font lacks, in order."""
+    return [_from_file(path, 0, 0) for path in _bundled()]
+
+
+def keep(path: str | os.PathLike[str], number: int = 0) -> tuple[str, str]:
+    """Take a font file among the assets: the name of its face and its SHA-256. Raises Refusal."""
+    file = Path(path)
+    try:
+        data = file.read_bytes() if file.stat().st_size <= LARGEST else b""
+    except OSError as error:
+        raise Refusal(f"{file.name}: cannot be read ({error.strerror or error})") from None
+    try:
+        name = open_face(data, number).name
+    except Refusal as refusal:
+        raise Refusal(f"{file.name}: {refusal}") from None
+    return name, default_store().put(data)
+
+
+def sha_of(face: FontFile) -> str:
+    """The SHA-256 of the file that a face lies in."""
+    return hashlib.sha256(face.path.read_bytes()).hexdigest()
+
+
+@lru_cache(maxsize=OPEN)
+def _from_asset(asset: str, number: int) -> Face:
+    return open_face(default_store().read(asset), number)
+
+
+@lru_cache(maxsize=OPEN)
+def _from_file(path: Path, number: int, changed: int) -> Face:
+    """`changed` is when the file was: another version of it is another face."""
+    try:
+        return open_face(path.read_bytes(), number)
+    except OSError as error:
+        raise Refusal(f"{path.name}: cannot be read ({error.strerror or error})") from None
+    except Refusal as refusal:
+        raise Refusal(f"{path.name}: {refusal}") from None
+
+
+def _bundled() -> list[Path]:
+    folder = Path(str(files("solidtree.resources"))) / "fonts"
+    return [folder / name for name in BUNDLED]
+
+
+def _files(places: Iterable[Path]) -> list[Path]:
+    found = []
+    for place in places:
+        for folder, _, names in os.walk(place):
+            found += [Path(folder, name) for name in sorted(names) if name.lower().endswith(ENDINGS)]
+    return found
+
+
+@lru_cache(maxsize=4096)
+def _names_in(path: Path) -> tuple[FontFile, ...]:
+    """The faces of a file, from its table of names or its header alone."""
+    try:
+        with open(path, "rb") as file:
+            head = file.read(HEADER)
+        if head[:4] in SFNT:
+            return tuple(FontFile(path, number, *_names(path, number)) for number in range(min(face_count(head), 64)))
+        found = {key.decode(): text.decode("latin-1") for key, text in _SAID.findall(head)}
+        family = found.get("FamilyName", "")
+        return (FontFile(path, 0, family, style_of(found, family)),) if family else ()
+    except (OSError, Refusal):
+        return ()
+
+
+def _names(path: Path, number: int) -> tuple[str, str]:
+    from fontTools.ttLib import TTFont
+
+    from .sfnt_face import names_of
+
+    with failing("the font cannot be read"), TTFont(path, fontNumber=number, lazy=True) as font:
+        return names_of(font)
+
+
+def _near(name: str) -> str:
+    from difflib import get_close_matches
+
+    names = {face.name.casefold(): face.name for face in installed()}
+    near = get_close_matches(name.casefold(), list(names), 1, 0.6)
+    return names[near[0]] if near else ""
