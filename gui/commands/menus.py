@@ -23,7 +23,7 @@ ORDER = {
     "Edit": "undo redo - cut copy paste copy_script duplicate delete - rename dissolve link unlink Edit/Order - "
     "toggle_visible show_hidden - select_all invert Edit/Select find - Edit/Parameters - evaluate cancel",
     "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace - add_extrude add_revolve - "
-    "add_rectangle add_circle add_polygon",
+    "add_rectangle add_circle add_polygon add_lettering",
     "Combine": "union difference intersection hull minkowski - group Combine/Change_to - "
     "linear_array polar_array mirror",
     "Curve": "draw_pen draw_freehand draw_rectangle draw_ellipse draw_polygon draw_star draw_arc draw_control_points "

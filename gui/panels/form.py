@@ -88,6 +88,11 @@ class Form(QWidget):
         self.rows.append(refresh)
         self.column.addWidget(row)
 
+    def tell(self, fault: str | None) -> None:
+        """A fault goes to the status bar."""
+        if fault:
+            self.refused.emit(fault)
+
     def do(self, operation: str, label: str, *arguments: object) -> bool:
         """Do an operation; a refusal goes to the status bar."""
         try:

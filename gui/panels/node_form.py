@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QMenu, QPlainTextE
 
 from ...model.document.fields import FieldSpec
 from ...model.document.nodes import Node, field_specs
-from ...model.document.outlines import OUTLINES
+from ...model.document.outlines import OUTLINES, Lettering
 from ...model.document.placement import Affine, Move, Reflect, Scale, Step, Turn
 from ...model.document.tree import find, walk
 from ..icons import icon, kind_icon
@@ -19,6 +19,7 @@ from .number_field import LENGTH, STEPS, Steps
 from .outline_words import field_words, measured_words
 from .property_edit import field_edit, position_edit, step_edit, with_step
 from .text_line import TextLine
+from .text_rows import text_row
 
 STEP_KINDS: tuple[tuple[str, str, Step], ...] = (
     ("Turn", "Degrees about x, then y, then z", Turn((0.0, 0.0, 0.0))),
@@ -44,7 +45,9 @@ class NodeForm(Form):
         if specs:
             self.heading(node.title)
         for spec in specs:
-            if spec.type not in ("letters", "splines"):  # they say nothing to a reader; the points' row sums them up
+            silent = spec.type in ("letters", "splines")  # they say nothing to a reader; the points' row sums them up
+            by_name = isinstance(node, Lettering) and not node.asset and spec.name in ("asset", "face")
+            if not (silent or by_name):
                 self._field(node.id, spec)
         if isinstance(node, OUTLINES):
             self._measures()
@@ -116,6 +119,8 @@ class NodeForm(Form):
                 edit = field_edit(self.session, node_id, spec, i)
                 self.number(f"{spec.name}_{axis}", label, spec.unit, steps, edit,
                             lambda node, i=i: getattr(node, spec.name)[i], tip=spec.tip)  # fmt: skip
+        elif spec.type == "choice" or spec.editor:
+            self.line(spec.label, text_row(self, node_id, spec), spec.tip)
         elif spec.type == "flag":
             box = QCheckBox(self)
             box.setObjectName(spec.name)

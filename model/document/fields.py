@@ -13,10 +13,10 @@ from .errors import Refusal
 from .expression import number, vector
 
 FieldType = Literal["length", "angle", "count", "factor", "vector", "direction", "flag", "text", "points", "faces",
-                    "letters", "numbers", "splines"]  # fmt: skip
+                    "letters", "numbers", "splines", "choice"]  # fmt: skip
 
 
-BARE = ("flag", "text", "points", "faces", "letters", "numbers", "splines")
+BARE = ("flag", "text", "points", "faces", "letters", "numbers", "splines", "choice")
 """The types that no row of numbers in a form can show."""
 
 
@@ -34,6 +34,10 @@ class FieldSpec:
     """Whether the minimum itself is refused."""
     optional: bool = False
     """Whether the field may be None: then the program chooses."""
+    options: tuple[str, ...] = ()
+    """What a choice is one of."""
+    editor: str = ""
+    """How a form lets text be written: "line", "lines" or "font"; "" where it only shows it."""
 
     @property
     def dimension(self) -> int:
@@ -55,6 +59,10 @@ class FieldSpec:
             case "text" | "letters":
                 if not isinstance(value, str):
                     raise Refusal(f"{what} must be text, not {value!r:.60}")
+                return value
+            case "choice":
+                if value not in self.options:
+                    raise Refusal(f"{what} is one of {', '.join(self.options)}, not {value!r:.60}")
                 return value
             case "points":
                 return _points(value, what, self.unit)
@@ -170,8 +178,13 @@ def flag(default: bool, label: str, tip: str = "") -> Any:
     return _field("flag", default, label, tip)
 
 
-def text(default: str, label: str, tip: str = "") -> Any:
-    return _field("text", default, label, tip)
+def text(default: str, label: str, tip: str = "", editor: str = "") -> Any:
+    return _field("text", default, label, tip, editor=editor)
+
+
+def choice(label: str, options: tuple[str, ...], tip: str = "") -> Any:
+    """One of some words, the first unless another is chosen."""
+    return _field("choice", options[0], label, tip, options=options)
 
 
 def points(label: str, tip: str = "", *, flat: bool = False) -> Any:

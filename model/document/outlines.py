@@ -10,6 +10,10 @@ from . import fields
 from .expression import Number
 from .nodes import Difference, Instance, Intersection, LinearArray, Mirror, Node, PolarArray, Union
 
+ALIGNMENTS = ("left", "centre", "right", "justify")
+ANCHORS = ("baseline", "top", "middle", "bottom")
+DIRECTIONS = ("auto", "ltr", "rtl")
+
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
 class Rectangle(Node):
@@ -89,7 +93,38 @@ class BSpline(Node):
     closed: bool = fields.flag(False, "Closed", "It runs round smoothly")
 
 
-OUTLINES: tuple[type[Node], ...] = (Rectangle, Circle, Polygon, Path, Bezier, BSpline)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Lettering(Node):
+    """Text in a font, whose letters are outlines: they stay text, and every contour fills by the non-zero rule.
+
+    `size` is that of the em. `font` is the name of an installed or bundled font; with `asset`, the SHA-256 of a font
+    file, it is that file's face number `face`, and `font` what it is called. `axes` has values of variable axes,
+    "wght=700 wdth=85", and `features` those of OpenType, "kern=0 smcp".
+    """
+
+    title: ClassVar[str] = "Lettering"
+    text: str = fields.text("Text", "Text", "Several lines if you like", "lines")
+    font: str = fields.text("DejaVu Sans", "Font", "Family and style, as “DejaVu Sans Bold”", "font")
+    asset: str = fields.text("", "Font file", "SHA-256 of a font file that the project carries")
+    face: Number = fields.count(0, "Face", "Which face of a collection, from 0", minimum=0)
+    size: Number = fields.size(10.0, "Size", "Of the em, from which capitals take about seven tenths")
+    alignment: str = fields.choice("Alignment", ALIGNMENTS, "Of the lines, to x = 0 or about it")
+    anchor: str = fields.choice("Anchor", ANCHORS, "What stands at y = 0: the first line's baseline, or the block's "
+                                "top, middle or bottom")  # fmt: skip
+    direction: str = fields.choice("Direction", DIRECTIONS, "Of the lines: that of their first letter, left to right "
+                                   "or right to left")  # fmt: skip
+    line_spacing: Number = fields.factor(1.0, "Line spacing", "Of the font's own distance of lines")
+    letter_spacing: Number = fields.length(0.0, "Letter spacing", "Added after each letter")
+    width: Number | None = fields.size(None, "Fit to width", "The longest line gets this width, by another size of "
+                                       "all; empty: as it comes", optional=True)  # fmt: skip
+    slant: Number = fields.angle(0.0, "Slant", "Leans each letter to the right about its baseline")
+    weight: Number = fields.length(0.0, "Weight", "Grows each outline by this on every side; below 0: thinner")
+    axes: str = fields.text("", "Axes", "Of a variable font, as “wght=700 wdth=85”", "line")
+    features: str = fields.text("", "Features", "Of OpenType, as “kern=0 smcp liga=0”", "line")
+    language: str = fields.text("", "Language", "As “tr” or “sr”, where letters differ by language", "line")
+
+
+OUTLINES: tuple[type[Node], ...] = (Rectangle, Circle, Polygon, Path, Bezier, BSpline, Lettering)
 CURVES: tuple[type[Node], ...] = (Path, Bezier, BSpline)
 """The outlines whose points can be moved one by one."""
 OF_OUTLINES: tuple[type[Node], ...] = (Union, Difference, Intersection, LinearArray, PolarArray, Mirror)

@@ -169,7 +169,7 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
         changes: dict[str, Any] = {}
         for name, spec in specs.items():
             if name in row:
-                changes[name] = row[name] if spec.type in ("text", "letters") else _value(row[name])
+                changes[name] = row[name] if spec.type in ("text", "letters", "choice") else _value(row[name])
         for name, wanted in (("name", str), ("note", str), ("visible", bool)):
             if name in row:
                 changes[name] = _expect(row[name], wanted, f"“{name}”")

@@ -12,7 +12,7 @@ from typing import Any
 
 from ..document.from_outlines import FROM_OUTLINES, Extrude, Revolve
 from ..document.nodes import Difference, Instance, Intersection, Node
-from ..document.outlines import OUTLINES, Circle, Outlines, Polygon, Rectangle
+from ..document.outlines import OUTLINES, Circle, Lettering, Outlines, Polygon, Rectangle
 from ..document.primitives import Box, Cone, Cylinder, Halfspace, Sphere, Torus
 from .chosen import chosen
 from .session import Session
@@ -175,6 +175,7 @@ DOCUMENT_COMMANDS: tuple[Command, ...] = (
     _add_command(Rectangle, "", "An outline of four sides, flat", toolbar=False),
     _add_command(Circle, "", "A round outline, flat", toolbar=False),
     _add_command(Polygon, "", "An outline of straight sides, flat", _hexagon),
+    _add_command(Lettering, "Alt+L", "Text in any font, as an outline", toolbar=False),
     _make_solid_command("extrude", "Extrude", 1, None, "Shift+E", "Draw each selected outline up to a solid"),
     _make_solid_command("revolve", "Revolve", 1, None, "Ctrl+R", "Turn each selected outline about its own y axis"),
     _make_solid_command("sweep", "Sweep", 2, 2, "", "Draw the selected outline along the selected path"),

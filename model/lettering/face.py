@@ -63,6 +63,15 @@ class Shaped:
     advance: tuple[float, float]
 
 
+PLAIN = ("", "regular", "book", "roman", "normal")
+"""Styles that need not be named."""
+
+
+def name_of(family: str, style: str) -> str:
+    """What a face is called: by its family alone where its style is the plain one."""
+    return family if style.casefold() in PLAIN else f"{family} {style}"
+
+
 class Face(ABC):
     """One face of a font file. Outlines have closed contours, y up, in font units."""
 
@@ -84,7 +93,7 @@ class Face(ABC):
     @property
     def name(self) -> str:
         """Family and style, as in "DejaVu Sans Bold"."""
-        return self.family if self.style in ("", "Regular") else f"{self.family} {self.style}"
+        return name_of(self.family, self.style)
 
     @abstractmethod
     def outline(self, glyph: str, location: Location = DEFAULT) -> Path:

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..document.errors import Refusal
+from ..document.outlines import ALIGNMENTS, ANCHORS, DIRECTIONS
 from ..path.path import Contour, Path
 from .face import DEFAULT, Face, Location
 from .runs import missing_in
 from .shaping import Set, set_line
 
-ALIGNMENTS = ("left", "centre", "right", "justify")
-ANCHORS = ("baseline", "top", "middle", "bottom")
-DIRECTIONS = ("auto", "ltr", "rtl")
 STEEPEST = 80.0
 """Degrees of slant."""
 
@@ -41,15 +39,21 @@ class Style:
     language: str = ""
     features: tuple[tuple[str, int], ...] = ()
 
+    @property
+    def shear(self) -> float:
+        """How far a letter leans, in parts of its height."""
+        return math.tan(math.radians(self.slant))
+
 
 @dataclass(frozen=True, slots=True)
 class Laid:
-    """One glyph of a layout: its font's number in the chain, its place in the text, and the map (2, 3) that takes its
-    outline from font units to millimetres."""
+    """One glyph of a layout: its font's number in the chain, its place in the text, its advance in mm, and the map
+    (2, 3) that takes its outline from font units to millimetres."""
 
     face: int
     glyph: str
     character: int
+    advance: float
     matrix: NDArray[np.float64]
 
 
@@ -81,7 +85,6 @@ def lay_out(text: str, faces: Sequence[Face], style: Style, location: Location =
     top = metrics.ascender / first.units_per_em
     bottom = metrics.descender / first.units_per_em - gap * (len(lines) - 1)
     lift = {"baseline": 0.0, "top": -top, "middle": -(top + bottom) / 2, "bottom": -bottom}[style.anchor]
-    shear = math.tan(math.radians(style.slant))
     longest = float(widths.max())
     laid: list[Laid] = []
     begin = 0
@@ -95,8 +98,8 @@ def lay_out(text: str, faces: Sequence[Face], style: Style, location: Location =
         for one in stretched:
             scale = em / faces[one.face].units_per_em
             place = (em * (start + one.x), em * (lift - number * gap + one.y))
-            matrix = np.array(((scale, shear * scale, place[0]), (0.0, scale, place[1])))
-            laid.append(Laid(one.face, one.glyph, begin + one.character, matrix))
+            matrix = np.array(((scale, style.shear * scale, place[0]), (0.0, scale, place[1])))
+            laid.append(Laid(one.face, one.glyph, begin + one.character, em * one.advance, matrix))
         begin += len(line) + 1
     return Layout(tuple(laid), em, tuple((em * widths).tolist()), tuple(missing_in(text, faces)))
 

@@ -14,15 +14,16 @@ from pathlib import Path
 
 from ..document.errors import Refusal
 from ..project.assets import default_store
-from .face import Face
+from .face import PLAIN, Face, name_of
 from .failing import failing
-from .opening import LARGEST, SFNT, face_count, open_face
+from .opening import SFNT, face_count, font_bytes, open_face, read_font
 from .type1_face import style_of
 
 BUNDLED = ("DejaVuSans.ttf", "GFSDidot.otf")
 STANDARD = "DejaVu Sans"
 """The font of new lettering, and the first in which a character is looked for that the chosen one lacks."""
 ENDINGS = (".ttf", ".otf", ".ttc", ".otc", ".pfa", ".pfb", ".t1", ".woff")
+"""Of font files."""
 HEADER = 32768
 """Bytes of a Type 1 font in which its names stand."""
 _SAID = re.compile(rb"/(FamilyName|FullName|Weight)\s*\(([^()]*)\)")
@@ -41,7 +42,7 @@ class FontFile:
 
     @property
     def name(self) -> str:
-        return self.family if self.style in ("", "Regular") else f"{self.family} {self.style}"
+        return name_of(self.family, self.style)
 
 
 def folders() -> list[Path]:
@@ -79,8 +80,7 @@ def find(name: str) -> FontFile | None:
     if exact is not None:
         return exact
     family = [face for face in faces if face.family.casefold() == wanted]
-    plain = ("regular", "roman", "book", "normal", "medium")
-    return min(family, key=lambda face: (face.style.casefold() not in plain, face.style), default=None)
+    return min(family, key=lambda face: (face.style.casefold() not in (*PLAIN, "medium"), face.style), default=None)
 
 
 def face_of(name: str, asset: str = "", number: int = 0) -> Face:
@@ -101,15 +101,11 @@ def fallbacks() -> list[Face]:
 
 def keep(path: str | os.PathLike[str], number: int = 0) -> tuple[str, str]:
     """Take a font file among the assets: the name of its face and its SHA-256. Raises Refusal."""
-    file = Path(path)
     try:
-        data = file.read_bytes() if file.stat().st_size <= LARGEST else b""
-    except OSError as error:
-        raise Refusal(f"{file.name}: cannot be read ({error.strerror or error})") from None
-    try:
+        data = font_bytes(path)
         name = open_face(data, number).name
     except Refusal as refusal:
-        raise Refusal(f"{file.name}: {refusal}") from None
+        raise Refusal(f"{Path(path).name}: {refusal}") from None
     return name, default_store().put(data)
 
 
@@ -126,12 +122,7 @@ def _from_asset(asset: str, number: int) -> Face:
 @lru_cache(maxsize=OPEN)
 def _from_file(path: Path, number: int, changed: int) -> Face:
     """`changed` is when the file was: another version of it is another face."""
-    try:
-        return open_face(path.read_bytes(), number)
-    except OSError as error:
-        raise Refusal(f"{path.name}: cannot be read ({error.strerror or error})") from None
-    except Refusal as refusal:
-        raise Refusal(f"{path.name}: {refusal}") from None
+    return read_font(path, number)
 
 
 def _bundled() -> list[Path]:

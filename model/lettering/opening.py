@@ -8,6 +8,7 @@ import zlib
 from pathlib import Path as FilePath
 
 from ..document.errors import Refusal
+from ..project.disk import reason_of
 from .face import Face
 
 LARGEST = 64 * 2**20
@@ -17,15 +18,21 @@ SFNT = (b"\0\1\0\0", b"OTTO", b"true", b"ttcf", b"wOFF")
 
 def read_font(path: str | os.PathLike[str], number: int = 0) -> Face:
     """The face of a font file; `number` of a collection's, from 0. Raises Refusal."""
+    try:
+        return open_face(font_bytes(path), number)
+    except Refusal as refusal:
+        raise Refusal(f"{FilePath(path).name}: {refusal}") from None
+
+
+def font_bytes(path: str | os.PathLike[str]) -> bytes:
+    """What is in a font file. Raises Refusal for one too large, or that cannot be read."""
     file = FilePath(path)
     try:
         if file.stat().st_size > LARGEST:
-            raise Refusal(f"{file.name}: larger than {LARGEST >> 20} MB: no font is")
-        return open_face(file.read_bytes(), number)
+            raise Refusal(f"larger than {LARGEST >> 20} MB: no font is")
+        return file.read_bytes()
     except OSError as error:
-        raise Refusal(f"{file.name}: cannot be read ({error.strerror or error})") from None
-    except Refusal as refusal:
-        raise Refusal(f"{file.name}: {refusal}") from None
+        raise Refusal(reason_of(error)) from None
 
 
 def open_face(data: bytes, number: int = 0) -> Face:

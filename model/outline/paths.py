@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..document.errors import Refusal
 from ..document.expression import Number
 from ..document.nodes import Broken, Instance, Node, range_fault
-from ..document.outlines import Bezier, BSpline, Circle, Path, Polygon, Rectangle
+from ..document.outlines import Bezier, BSpline, Circle, Lettering, Path, Polygon, Rectangle
 from ..document.placement import Placement
 from ..path import path as curves
 from ..path import shapes
@@ -112,6 +112,13 @@ def path_of_polygon(node: Polygon) -> curves.Path:
         ring = points[[*loop, loop[0]]]
         contours.append(curves.Contour(ring, np.full(len(loop), curves.Kind.LINE, np.uint8), True))
     return curves.Path(tuple(contours), "evenodd")
+
+
+@own_path.register
+def path_of_lettering(node: Lettering) -> curves.Path:
+    from ..lettering.lettering import path_of_lettering
+
+    return path_of_lettering(node)
 
 
 @own_path.register

@@ -15,10 +15,13 @@ from pathlib import Path
 
 from ..document.document import Document
 from ..document.errors import Refusal
+from ..document.outlines import Lettering
 from ..document.primitives import ImportedMesh
 from ..document.tree import walk
 from .disk import reason_of
 
+CARRIERS = (ImportedMesh, Lettering)
+"""The kinds of nodes that refer to an asset."""
 _SHA = re.compile(r"[0-9a-f]{64}")
 
 
@@ -110,4 +113,4 @@ def use_store(folder: str | os.PathLike[str]) -> AssetStore:
 
 def assets_of(document: Document) -> set[str]:
     """The SHA-256 of every asset that the document refers to."""
-    return {node.asset for node in walk(*document.roots) if isinstance(node, ImportedMesh) and node.asset}
+    return {node.asset for node in walk(*document.roots) if isinstance(node, CARRIERS) and node.asset}

@@ -14,11 +14,10 @@ from typing import Any, BinaryIO
 
 from ..document.document import Document
 from ..document.errors import Refusal
-from ..document.primitives import ImportedMesh
 from ..document.table import from_table, to_table
 from ..document.tree import walk
 from .archive import allowance, member, members_of, open_archive, unpacked
-from .assets import AssetStore, assets_of, default_store, is_sha
+from .assets import CARRIERS, AssetStore, assets_of, default_store, is_sha
 from .disk import one_line, reason_of, replace_file
 
 FORMAT = 3
@@ -48,7 +47,7 @@ def save_project(
     text = json.dumps(
         {**to_table(document), "format": FORMAT}, sort_keys=True, indent=2, ensure_ascii=False, allow_nan=False
     )
-    names = {node.asset: node.label for node in walk(*document.roots) if isinstance(node, ImportedMesh)}
+    names = {node.asset: node.label for node in walk(*document.roots) if isinstance(node, CARRIERS)}
 
     def write(stream: BinaryIO) -> None:
         with zipfile.ZipFile(stream, "w", allowZip64=True) as archive:
@@ -98,7 +97,7 @@ def _keep_assets(
 ) -> None:
     left = most
     for node in walk(*document.roots):
-        if not isinstance(node, ImportedMesh) or not node.asset:
+        if not isinstance(node, CARRIERS) or not node.asset:
             continue
         what = f"node {node.id} (“{node.label}”)"
         if not is_sha(node.asset):
@@ -107,7 +106,7 @@ def _keep_assets(
         if info is None:
             if store.has(node.asset):  # kept already, for another node or by another file
                 continue
-            raise Refusal(f"{what}: its mesh {ASSETS}{node.asset[:12]}… is missing from the file")
+            raise Refusal(f"{what}: its file {ASSETS}{node.asset[:12]}… is missing from the file")
         try:
             store.put_chunks(unpacked(archive, info, left), node.asset)
         except Refusal as refusal:

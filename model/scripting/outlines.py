@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..document.from_outlines import Extrude, Loft, Pipe, Revolve, Sweep
 from ..document.nodes import Node
-from ..document.outlines import Bezier, BSpline, Circle, Path, Polygon, Rectangle
+from ..document.outlines import Bezier, BSpline, Circle, Lettering, Path, Polygon, Rectangle
 from .shapes import Value
 
 if TYPE_CHECKING:
@@ -45,6 +45,43 @@ def polygon(points: Iterable[Sequence[Value]] = (), loops: Iterable[Sequence[int
     12.0
     """
     return Polygon(points=tuple(tuple(p) for p in points), loops=tuple(tuple(loop) for loop in loops))
+
+
+def lettering(
+    text: str,
+    size: Value = 10,
+    font: str | os.PathLike[str] = "DejaVu Sans",
+    *,
+    face: int = 0,
+    asset: str = "",
+    alignment: str = "left",
+    anchor: str = "baseline",
+    direction: str = "auto",
+    line_spacing: Value = 1,
+    letter_spacing: Value = 0,
+    width: Value | None = None,
+    slant: Value = 0,
+    weight: Value = 0,
+    axes: str = "",
+    features: str = "",
+    language: str = "",
+) -> Lettering:
+    """Text as an outline, in a font by its name, or by the path of a font file, which then goes with the project.
+
+    >>> letters = lettering("AVTo", 12, "GFS Didot", slant=12)
+    >>> measure(extrude(letters, 2)).closed
+    True
+    """
+    from ..lettering.library import ENDINGS, find, keep
+
+    name = os.fspath(font)
+    if not asset and PurePath(name).suffix.lower() in ENDINGS and find(name) is None:
+        name, asset = keep(name, face)
+    return Lettering(
+        text=text, font=name, asset=asset, face=face, size=size, alignment=alignment, anchor=anchor,
+        direction=direction, line_spacing=line_spacing, letter_spacing=letter_spacing, width=width, slant=slant,
+        weight=weight, axes=axes, features=features, language=language,
+    )  # fmt: skip
 
 
 def path(
@@ -239,6 +276,6 @@ def pipe(
 
 
 __all__ = [
-    "bezier", "bspline", "circle", "construction", "continuity", "extrude", "loft", "outlines", "path", "pipe",
-    "polygon", "rectangle", "revolve", "sweep",
+    "bezier", "bspline", "circle", "construction", "continuity", "extrude", "lettering", "loft", "outlines", "path",
+    "pipe", "polygon", "rectangle", "revolve", "sweep",
 ]  # fmt: skip

@@ -12,8 +12,10 @@ from numpy.typing import NDArray
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Hull, Node
+from ..document.outlines import Lettering
 from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere
 from ..document.resolve import Resolver
+from ..document.tree import walk
 from ..measuring.measure import Measures, measure
 from ..path.path import Path
 from ..worker.shown import Message
@@ -97,12 +99,23 @@ def messages_of(root: Node, problems: Iterable[Problem]) -> tuple[Message, ...]:
 
 
 def result_of(root: Node, entry: Entry) -> SolidResult:
-    return SolidResult(root, entry.solid, messages_of(root, entry.problems), entry.rest)
+    return SolidResult(root, entry.solid, messages_of(root, entry.problems) + remarks_on_lettering(root), entry.rest)
 
 
 def profile_result(root: Node) -> ProfileResult:
     path, problems = profile_of(root)
-    return ProfileResult(root, path, messages_of(root, problems))
+    return ProfileResult(root, path, messages_of(root, problems) + remarks_on_lettering(root))
+
+
+def remarks_on_lettering(root: Node) -> tuple[Message, ...]:
+    """What there is to say of the fonts of a resolved tree: characters that they lack, each told once a node."""
+    found: dict[Message, None] = {}
+    for node in walk(root):
+        if isinstance(node, Lettering):
+            from ..lettering.lettering import remarks_on
+
+            found |= dict.fromkeys(Message(node.id, node.label, remark, False) for remark in remarks_on(node))
+    return tuple(found)
 
 
 def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:

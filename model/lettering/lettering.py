@@ -1,0 +1,139 @@
+"""Lettering nodes as outlines, and what there is to say about them."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Sequence
+
+from ..document.errors import Refusal
+from ..document.outlines import Lettering
+from ..path.path import Path
+from .face import Face
+from .layout import Layout, Style, lay_out, outline_of
+from .library import face_of, fallbacks
+from .runs import missing_in
+
+LONGEST = 20_000
+"""Characters of one lettering."""
+_SETTING = re.compile(r"([A-Za-z0-9 ]{1,4}?)\s*(?:[=:]\s*([-+]?\d+(?:\.\d+)?))?")
+NAMED = 6
+"""Characters that a remark names."""
+BOLD = 1e-4
+"""Share of the em within which outlines are grown."""
+
+
+def path_of_lettering(node: Lettering) -> Path:
+    """A resolved lettering in its own axes, mm, filled by the non-zero rule. Raises Refusal."""
+    faces, layout, location = _laid_out(node)
+    path = outline_of(layout, faces, location)
+    weight = float(node.weight)  # type: ignore[arg-type]
+    if weight and path.contours:
+        from ..path.areas.offsetting import offset
+
+        path = offset(path, weight, BOLD * layout.em, "miter")
+    return path
+
+
+def layout_of(node: Lettering) -> tuple[list[Face], Layout]:
+    """The chain of fonts of a resolved lettering, and its glyphs. Raises Refusal."""
+    faces, layout, _ = _laid_out(node)
+    return faces, layout
+
+
+def remarks_on(node: Lettering) -> list[str]:
+    """What a reader should know of how a resolved lettering is set: fonts that stand in, characters without a glyph."""
+    try:
+        faces = _chain(node)
+    except Refusal:
+        return []
+    remarks = []
+    own, text = faces[0], node.text
+    lost = missing_in(text, faces)
+    lent: dict[int, list[int]] = {}
+    for code in missing_in(text, faces[:1]):
+        if code not in lost:
+            number = next(n for n, face in enumerate(faces) if code in face.characters)
+            lent.setdefault(number, []).append(code)
+    for number, codes in sorted(lent.items()):
+        remarks.append(f"{own.name} has no {_listed(codes)}: set in {faces[number].name}")
+    if lost:
+        remarks.append(f"no font of the chain has {_listed(lost)}: shown as a box; choose a font that has it")
+    return remarks
+
+
+def settings_of(text: str, what: str) -> list[tuple[str, float | None]]:
+    """Tags and values of "wght=700, smcp": None where none is given. Raises Refusal."""
+    found = []
+    for part in re.split(r"[,;\s]+", re.sub(r"\s*[=:]\s*", "=", text.strip())):
+        if not part:
+            continue
+        match = _SETTING.fullmatch(part)
+        if match is None:
+            raise Refusal(
+                f"{what} are written as “{'wght=700' if what == 'axes' else 'kern=0 smcp'}”, not “{part:.40}”"
+            )
+        found.append((match[1], None if match[2] is None else float(match[2])))
+    return found
+
+
+def location_of(text: str) -> dict[str, float]:
+    """Values of axes from "wght=700 wdth=85". Raises Refusal."""
+    location = {}
+    for tag, value in settings_of(text, "axes"):
+        if value is None:
+            raise Refusal(f"the axis {tag} has no value")
+        location[tag] = value
+    return location
+
+
+def features_of(text: str) -> tuple[tuple[str, int], ...]:
+    """OpenType features from "kern=0 smcp". Raises Refusal."""
+    return tuple((tag, 1 if value is None else int(value)) for tag, value in settings_of(text, "features"))
+
+
+def style_of(node: Lettering) -> Style:
+    """Raises Refusal."""
+    numbers = {
+        "size": node.size,
+        "line_spacing": node.line_spacing,
+        "spacing": node.letter_spacing,
+        "slant": node.slant,
+    }
+    return Style(
+        **{name: float(value) for name, value in numbers.items()},  # type: ignore[arg-type]
+        width=None if node.width is None else float(node.width),  # type: ignore[arg-type]
+        alignment=node.alignment,
+        anchor=node.anchor,
+        direction=node.direction,
+        language=node.language,
+        features=features_of(node.features),
+    )
+
+
+def _laid_out(node: Lettering) -> tuple[list[Face], Layout, dict[str, float]]:
+    if len(node.text) > LONGEST:
+        raise Refusal(f"{node.title}: {len(node.text):,} characters are too many; {LONGEST:,} are the most")
+    try:
+        location = location_of(node.axes)
+        faces = _chain(node)
+        return faces, lay_out(node.text, faces, style_of(node), location), location
+    except Refusal as refusal:
+        raise Refusal(f"{node.title}: {refusal}") from None
+
+
+def _chain(node: Lettering) -> list[Face]:
+    """The font of the lettering, and those that lend it what it lacks."""
+    own = face_of(node.font, node.asset, int(float(node.face)))  # type: ignore[arg-type]
+    return [own, *(face for face in fallbacks() if face is not own and face.name != own.name)]
+
+
+def _listed(codes: Sequence[int]) -> str:
+    shown = [_character(code) for code in codes[:NAMED]]
+    more = f" and {len(codes) - NAMED} more" if len(codes) > NAMED else ""
+    return ", ".join(shown) + more
+
+
+def _character(code: int) -> str:
+    name = unicodedata.name(chr(code), "")
+    return f"“{chr(code)}” (U+{code:04X}{', ' + name.lower() if name else ''})"
