@@ -220,7 +220,7 @@ class MainWindow(QMainWindow):
         self.setWindowModified(self.session.modified)
         if self.session.previewing:
             return
-        self.welcome.set_empty(not after.document.roots)
+        self.follow_empty()
         self.isolation.follow()
         if before.selection != after.selection:
             self.measure_selection()
@@ -228,6 +228,10 @@ class MainWindow(QMainWindow):
             title = name.capitalize()
             self.actions_[name].setText(f"{title} {label[0].lower()}{label[1:]}" if label else title)
         self.actions_.refresh()
+
+    def follow_empty(self) -> None:
+        """The welcome card stands in an empty picture, and gives way to what is drawn there."""
+        self.welcome.set_empty(not self.session.document.roots and not self.draw.active)
 
     def shown(self, shown: Shown, seconds: float) -> None:
         meshes = shown.solids | shown.outlines

@@ -134,5 +134,7 @@ def _drawing(window: MainWindow) -> None:
         window.sight.began.connect(tool.end)
         window.files.opened.connect(tool.end)
     draw.refused.connect(window.status.say)
+    draw.began.connect(window.follow_empty)
+    draw.ended.connect(window.follow_empty)
     face.taken.connect(lambda: draw.start(face.resumed) if face.resumed else None)
     window.work_plane.changed.connect(window.actions_.refresh)

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 Path = tuple[str | int, ...]
 
 SHEET = 0.22  # opacity of what an outline fills
+SHEET_OFFSET = (0.0, 0.0)  # slope and steps of depth behind lines; faces of solids stand at (2, 2)
 SELECTED, HOVERED = 0.42, 0.28  # how much of the highlight's colour is mixed into a face
 
 
@@ -35,6 +36,8 @@ class SolidActors:
         self._silhouette = vtkPolyData()
         self._silhouette.SetPoints(self.surface.GetPoints())
         self.faces = faces_actor(self.surface)
+        if mesh.sheet:  # in front of the face of a solid that it lies on
+            self.faces.GetMapper().SetRelativeCoincidentTopologyPolygonOffsetParameters(*SHEET_OFFSET)
         self.edges = _actor(self.features)
         self.silhouette = _actor(self._silhouette)
         self.outline = _actor(self._outline)

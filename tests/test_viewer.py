@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 from render_meshes import box, drilled
 
+from solidtree.model.script import rectangle
+from solidtree.model.solid.outlines.sheet import sheet_of
 from solidtree.render.camera import fit, orbit, project, zoom
 from solidtree.render.look import DARK, LIGHT, rgb
 from solidtree.render.view_cube import MARGIN, SIDES, SIZE
@@ -156,3 +158,19 @@ def test_after_close_nothing_happens(viewer):
     viewer.close()
     viewer.close()
     viewer.render()
+
+
+def test_an_outline_on_a_face_is_seen_without_gaps(viewer):
+    sheet = sheet_of(rectangle(7.3, 6.1).turned(z=20).at(3, 2, 10).with_(id="sheet"), 0.05)
+    viewer.set_ground(False)
+    viewer.set_cube(False)
+    viewer.show({"box": (box(), None), "sheet": (sheet, ["#ff2020"])})
+    for around in (0, 70, 200):
+        viewer.set_camera(orbit(viewer.fitted(standard_view(viewer.camera, "iso")), around, 0))
+        viewer.render()
+        inside = np.random.default_rng(1).uniform((0.5, 0.5, 0), (6.8, 5.6, 0), (400, 3))
+        turn = np.radians(20)
+        axes = np.array([[np.cos(turn), np.sin(turn), 0], [-np.sin(turn), np.cos(turn), 0], [0, 0, 1]])
+        x, y, _ = project(viewer.camera, inside @ axes + (3, 2, 10), viewer.size).T
+        pixels = viewer.pixels()[y.astype(int), x.astype(int)].astype(int)
+        assert np.ptp(pixels[:, 0] - pixels[:, 2]) < 12

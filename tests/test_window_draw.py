@@ -39,6 +39,20 @@ def test_the_pen_draws_corners_and_a_curve_closes_and_is_one_step(drawer):
     assert driver.document is empty
 
 
+def test_the_welcome_card_makes_room_for_what_is_drawn(drawer):
+    welcome = drawer.driver.window.welcome
+    assert welcome.isVisible()
+    drawer.start("pen")
+    assert not welcome.isVisible()
+    drawer.driver.keys("Escape", drawer.viewport)
+    assert not drawer.tool.active and welcome.isVisible()
+    drawer.start("pen")
+    for corner in ((0, 0), (20, 0), (20, 15), (0, 0)):
+        drawer.click(*corner)
+    drawer.driver.keys("Escape", drawer.viewport)
+    assert not welcome.isVisible()
+
+
 def test_enter_ends_an_open_path_and_backspace_takes_nodes_back(drawer):
     drawer.start("pen")
     drawer.click(0, 0)

@@ -332,3 +332,15 @@ def test_ends_are_joined_and_kinds_set(hand: Hand) -> None:
     assert hand.contour.nodes[1] == Node.AUTO
     hand.double_click((0, 30))
     assert hand.contour.nodes[1] == Node.CUSP
+
+
+def test_the_ends_of_a_break_are_chosen_and_stay_so_when_they_are_joined(hand: Hand) -> None:
+    hand.show(HILL)
+    hand.click((40, -30))
+    hand.keys("Ctrl+Shift+B")
+    assert not hand.contour.closed
+    assert hand.curve.chosen == {(0, 0), (0, len(hand.contour.nodes) - 1)}
+    hand.window.actions_.run("join_nodes")
+    assert hand.contour.closed
+    places = [tuple(place) for row, place in zip(hand.curve.rows, hand.places, strict=True) if row in hand.curve.chosen]
+    assert places and set(places) == {(40, -30)}

@@ -2,6 +2,8 @@
 
 from PySide6.QtWidgets import QCheckBox, QLabel
 
+from solidtree.model.document.document import Document
+from solidtree.model.document.outlines import Path, Rectangle
 from solidtree.model.script import bezier, box, bspline, document_of, path, rectangle
 
 pytest_plugins = ["window_driver"]
@@ -47,3 +49,23 @@ def test_outlines_stand_in_the_tree_after_the_solids_and_become_solids_by_a_key(
     driver.click_row(driver.node("plate"))
     driver.keys("Ctrl+R")
     assert driver.document.solids[-1].kind == "Revolve"
+
+
+def test_hover_tells_an_outline_without_facets(driver):
+    driver.open(Document(profiles=(Rectangle(id="n1", name="Plate", width=30.0, height=20.0),)))
+    driver.look_from("top")
+    driver.qtbot.mouseMove(driver.window.viewport, driver.pixel_of((2, 2, 0)))
+    hover = driver.window.status.hover
+    driver.qtbot.waitUntil(lambda: "Plate" in hover.text())
+    assert "facet" not in hover.text() and "e-" not in hover.text()
+
+
+def test_the_curve_panel_says_why_an_outline_cannot_be_edited(driver):
+    words = driver.window.curve_panel.words
+    wrong = Path(id="n1", name="Wrong", points=((0, 0), (5, 0), (5, 5)), segments="MXL", joints="ccc")
+    driver.open(Document(profiles=(wrong,)))
+    assert words.text().startswith("Select an outline")
+    driver.session.select(["n1"])
+    assert "X” is no segment" in words.text()
+    driver.session.select([])
+    assert words.text().startswith("Select an outline")

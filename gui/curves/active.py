@@ -58,6 +58,8 @@ class ActiveCurve(QObject):
         self.path: Path | None = None
         self.frame: Floats = IDENTITY
         self.chosen: frozenset[Place] = frozenset()
+        self.fault = ""
+        """Why the outline that is selected has no curves; "" where it has some, or none is selected."""
         self._resolved: Node | None = None
         self._points: tuple[Floats, list[Place]] | None = None
         self._counts: tuple[int, ...] = ()
@@ -181,14 +183,16 @@ class ActiveCurve(QObject):
         if self._seen is not None and self._seen[0] is document and self._seen[1] == selection:
             return
         self._seen = document, selection
-        node, frame_before, resolved_before = self.node, self.frame, self._resolved
+        node, frame_before, resolved_before, fault_before = self.node, self.frame, self._resolved, self.fault
+        self.fault = ""
         try:
             self._follow(document, selection)
-        except Refusal:  # its row says why
+        except Refusal as refusal:
             self._forget()
-        if self.node is node is None:
+            self.fault = str(refusal)
+        if self.node is node is None and self.fault == fault_before:
             return
-        same = self._resolved is resolved_before and self.node is node
+        same = self._resolved is resolved_before and self.node is node and self.fault == fault_before
         if not same or self.frame is not frame_before:
             self.changed.emit()
 

@@ -9,6 +9,8 @@ from PySide6.QtWidgets import QLabel, QStackedLayout, QTabWidget, QVBoxLayout, Q
 
 from .active import ActiveCurve
 
+NOTHING = "Select an outline, or draw one with the tools of the menu Curve."
+
 
 class CurvePanel(QWidget):
     """A tab for each page that applies, in the order given; words where there is no outline.
@@ -28,7 +30,7 @@ class CurvePanel(QWidget):
         self.tabs.setDocumentMode(True)
         for title, page in pages.items():
             self.tabs.addTab(page, title)
-        self.words = QLabel("Select an outline, or draw one with the tools of the menu Curve.", self)
+        self.words = QLabel(NOTHING, self)
         self.words.setProperty("muted", True)
         self.words.setWordWrap(True)
         self.words.setContentsMargins(12, 12, 12, 12)
@@ -64,6 +66,8 @@ class CurvePanel(QWidget):
             applies = there and page.applies()  # type: ignore[attr-defined]
             if self.tabs.isTabVisible(number) != applies:
                 self.tabs.setTabVisible(number, applies)
+        fault = self._active.fault
+        self.words.setText(f"This outline cannot be edited. {fault}" if fault else NOTHING)
         self._stack.setCurrentIndex(int(there))
         self._tell()
 

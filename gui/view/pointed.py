@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...model.document.document import Document
 from ...model.document.nodes import Node
+from ...model.document.outlines import is_outline
 from ...model.document.resolve import Resolver
 from ...model.document.tree import walk
 from ...model.editing.session import Session
@@ -19,6 +20,8 @@ Path = tuple[str | int, ...]
 
 LEVELS = 6
 """Names of a chain that are told; of a longer one those in the middle are left out."""
+NEGLIGIBLE = 1e-9
+"""Millimetres that are told as 0."""
 ARROW = " › "  # noqa: RUF001
 
 
@@ -63,7 +66,7 @@ class Pointed:
         path = self.path(pick)
         if pick is None or path is None:
             return ""
-        x, y, z = (f"{value:.4g}" for value in pick.point)
+        x, y, z = (f"{0.0 if abs(value) < NEGLIGIBLE else value:.4g}" for value in pick.point)
         return f"{self._trail(path)} — {self._kind(pick, path)} — ({x}, {y}, {z})"
 
     def tip(self, pick: Pick | None) -> str:
@@ -98,5 +101,6 @@ class Pointed:
     def _kind(self, pick: Pick, path: Path) -> str:
         role = self.role(path)
         parts = [self.nodes()[str(path[-1])].title.lower(), *([str(role)] if role else [])]
-        parts.append("cut face" if pick.facet < 0 else f"facet {pick.facet}")
+        if not is_outline(self.nodes()[str(path[0])], self._session.document.definitions):
+            parts.append("cut face" if pick.facet < 0 else f"facet {pick.facet}")
         return ", ".join(parts)

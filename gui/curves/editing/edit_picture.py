@@ -32,7 +32,7 @@ HitKind = Literal["knob", "node", "handle", "curve"]
 
 REACH = 7.0
 """Logical pixels between the pointer and what it catches."""
-SMOOTH = 0.25
+SMOOTH = 0.1
 """Pixels that the chords may be off the curve."""
 FLAT_VIEW = 0.15
 """Sine of the angle between the eye and a plane of which a space curve's nodes are not moved in it."""

@@ -8,9 +8,14 @@ from ....model.document.outlines import Bezier
 from ....model.path.path import WORDS, Kind, Node
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ..active import ActiveCurve, Place
     from .edit_picture import Hit
     from .edited import Edited
+
+    Floats = NDArray[np.float64]
 
 KINDS = ("cusp", "smooth", "symmetric", "auto")
 """The kinds of nodes, in the order of path.Node."""
@@ -108,7 +113,27 @@ def join(active: ActiveCurve, merge: bool = False) -> None:
     if merge:
         active.do("join_nodes", first, second, label="Join nodes into one", merge=True)
     else:
-        active.do("join_nodes", first, second, label="Join nodes by a line")
+        places = chosen_places(active)
+        if active.do("join_nodes", first, second, label="Join nodes by a line"):
+            choose_at(active, places)
+
+
+def chosen_places(active: ActiveCurve) -> Floats:
+    """(k, 2) where the chosen nodes are, in the outline's own axes."""
+    return active.places[[row in active.chosen for row in active.rows]]
+
+
+def choose_at(active: ActiveCurve, places: Floats, ends: bool = False) -> None:
+    """Choose the nodes at these places, with `ends` those alone where open contours end."""
+    assert active.path is not None
+    contours = active.path.contours
+    wanted = {tuple(place) for place in places.tolist()}
+    active.choose(
+        (number, node)
+        for (number, node), place in zip(active.rows, active.places.tolist(), strict=True)
+        if tuple(place) in wanted
+        and not (ends and (contours[number].closed or 0 < node < len(contours[number].nodes) - 1))
+    )
 
 
 def close(active: ActiveCurve) -> None:
@@ -128,7 +153,10 @@ def set_segments(active: ActiveCurve, kind: str, title: str) -> None:
 
 
 def break_apart(active: ActiveCurve) -> None:
-    active.do("break_path", nodes(active), label="Break path")
+    """The ends that this makes are chosen then."""
+    places = chosen_places(active)
+    if active.do("break_path", nodes(active), label="Break path"):
+        choose_at(active, places, ends=True)
 
 
 def mend(active: ActiveCurve, operation: str, title: str) -> None:
