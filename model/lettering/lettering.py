@@ -5,6 +5,10 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
 
 from ..document.errors import Refusal
 from ..document.outlines import Lettering
@@ -35,10 +39,36 @@ def path_of_lettering(node: Lettering) -> Path:
     return path
 
 
-def layout_of(node: Lettering) -> tuple[list[Face], Layout]:
-    """The chain of fonts of a resolved lettering, and its glyphs. Raises Refusal."""
-    faces, layout, _ = _laid_out(node)
-    return faces, layout
+def rings_of_lettering(node: Lettering, tolerance: float, most: int) -> list[NDArray[np.float64]]:
+    """The same flattened: (k, 2) points a contour, mm, within `tolerance`; a glyph that has been set before in this
+    size is placed alone. Raises Refusal, also for more than `most` points in all."""
+    from ..path.flatten import flatten
+
+    if float(node.weight):  # type: ignore[arg-type]
+        return flatten(path_of_lettering(node), tolerance, most)
+    faces, layout, location = _laid_out(node)
+    rings: list[NDArray[np.float64]] = []
+    total = 0
+    for one in layout.glyphs:
+        (across, shear, x), (_, up, y) = one.matrix.tolist()
+        place = tuple(sorted(location.items())) if one.face == 0 else ()
+        flat = _flattened(faces[one.face], one.glyph, place, (across, shear, up), tolerance)
+        rings += [np.add(points, (x, y)) for points in flat]
+        total += sum(map(len, flat))
+        if total > most:
+            raise Refusal(f"a tolerance of {tolerance:g} mm makes more than {most:,} points; take a coarser one")
+    return rings
+
+
+@lru_cache(maxsize=4096)
+def _flattened(
+    face: Face, glyph: str, location: tuple[tuple[str, float], ...], map_: tuple[float, float, float], tolerance: float
+) -> list[NDArray[np.float64]]:
+    from ..path.flatten import flatten
+
+    across, shear, up = map_
+    outline = face.outline(glyph, dict(location)).transformed(((across, shear, 0.0), (0.0, up, 0.0)))
+    return flatten(outline, tolerance)
 
 
 def remarks_on(node: Lettering) -> list[str]:

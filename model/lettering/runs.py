@@ -60,6 +60,9 @@ def _scripts(text: str) -> list[str]:
 
 
 def _faces(text: str, faces: Sequence[Face]) -> list[int]:
+    own = faces[0].characters
+    if all(ord(one) in own for one in text):
+        return [0] * len(text)
     result: list[int] = []
     for cluster in _clusters(text):
         needed = [ord(one) for one in cluster if not _invisible(one)]
@@ -86,5 +89,5 @@ def _invisible(character: str) -> bool:
 
 def missing_in(text: str, faces: Sequence[Face]) -> list[int]:
     """The code points that no face of the chain has a glyph for, in order, each once."""
-    wanted = dict.fromkeys(ord(one) for one in text if not _invisible(one) and not one.isspace())
+    wanted = [ord(one) for one in dict.fromkeys(text) if not _invisible(one) and not one.isspace()]
     return [code for code in wanted if not any(code in face.characters for face in faces)]

@@ -145,7 +145,7 @@ class Contour:
             raise ValueError(f"a matrix {affine.shape} does not move points of {self.dimension} coordinates")
         turn = affine[:, : self.dimension]
         gram = turn.T @ turn
-        even = np.allclose(gram, gram[0, 0] * np.eye(len(gram)), rtol=0.0, atol=1e-12 * max(gram[0, 0], 1e-300))
+        even = np.abs(gram - gram[0, 0] * np.eye(len(gram))).max() <= 1e-12 * max(gram[0, 0], 1e-300)
         nodes = self.nodes if even else np.where(self.nodes >= Node.SYMMETRIC, Node.SMOOTH, self.nodes)
         splines = tuple(replace(spline, points=spline.points @ turn.T + affine[:, -1]) for spline in self.splines)
         return Contour(self.points @ turn.T + affine[:, -1], self.kinds, self.closed, splines, nodes)

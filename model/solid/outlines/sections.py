@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from ...document.errors import Refusal
 from ...document.nodes import Broken, Difference, Intersection, LinearArray, Mirror, Node, PolarArray, range_fault
-from ...document.outlines import Circle
+from ...document.outlines import Circle, Lettering
 from ...outline.paths import own_path
 from ...path.flatten import flatten
 from ...path.path import Path
@@ -60,8 +60,12 @@ def area_of(path: Path, tolerance: float) -> CrossSection:
         rings = flatten(path, tolerance, MOST_POINTS)
     except Refusal as fault:
         raise NoSolid(str(fault)) from None
+    return _filled(rings, path.rule)
+
+
+def _filled(rings: list[NDArray[np.float64]], rule: str) -> CrossSection:
     _check_near(max((float(np.abs(points).max()) for points in rings if len(points)), default=0.0))
-    return CrossSection([np.ascontiguousarray(points) for points in rings], FILL[path.rule])
+    return CrossSection([np.ascontiguousarray(points) for points in rings], FILL[rule])
 
 
 def _own(node: Node, tolerance: float) -> CrossSection:
@@ -74,6 +78,10 @@ def _own(node: Node, tolerance: float) -> CrossSection:
         wanted = tolerance if node.tolerance is None else float(node.tolerance)  # type: ignore[arg-type]
         return CrossSection.circle(radius, int(segments or circle_segments(radius, wanted)))  # type: ignore[arg-type]
     try:
+        if isinstance(node, Lettering):
+            from ...lettering.lettering import rings_of_lettering
+
+            return _filled(rings_of_lettering(node, tolerance, MOST_POINTS), "nonzero")
         return area_of(own_path(node), tolerance)
     except (NoSolid, Refusal) as fault:
         words = str(fault)
