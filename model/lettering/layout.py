@@ -124,6 +124,8 @@ def _check(style: Style) -> None:
     ):
         if value not in known:
             raise Refusal(f"the {what} of lettering is one of {', '.join(known)}, not “{value!s:.40}”")
+    if not style.size > 0.0 or not (style.width is None or style.width > 0.0):
+        raise Refusal("the size and the width of lettering must be above 0 mm")
     if abs(style.slant) > STEEPEST:
         raise Refusal(f"letters lean by at most {STEEPEST:g} degrees, not {style.slant:g}")
 
