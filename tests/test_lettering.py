@@ -2,7 +2,7 @@
 
 import re
 from importlib.resources import files
-from math import radians, tan
+from math import pi, radians, tan
 from pathlib import Path
 
 import numpy as np
@@ -14,11 +14,24 @@ from solidtree.model.lettering.bidi import levels_of, visual_order
 from solidtree.model.lettering.layout import Style, lay_out, outline_of
 from solidtree.model.lettering.library import face_of, fallbacks, find, installed
 from solidtree.model.lettering.shaping import set_line
+from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.project.project_file import open_project, save_project
-from solidtree.model.script import circle, document_of, extrude, lettering, measure, outlines, rectangle, save
+from solidtree.model.script import (
+    circle,
+    cylinder,
+    document_of,
+    extrude,
+    lettering,
+    measure,
+    outlines,
+    rectangle,
+    save,
+    wrap,
+)
 from solidtree.model.solid.information import information
 
 BUNDLED = Path(str(files("solidtree.resources"))) / "fonts"
+BAR = cylinder(radius=20, height=30)
 DEJAVU, DIDOT = face_of("DejaVu Sans"), face_of("GFS Didot")
 
 
@@ -244,8 +257,6 @@ def test_a_damaged_font_file_is_refused(tmp_path):
 
 
 def test_lettering_becomes_editable_curves():
-    from solidtree.model.operations.operations import OPERATIONS
-
     document = document_of(a=lettering("O", 10, "GFS Didot"), b=circle(3))
     after = OPERATIONS["convert_to_path"](document, document.profiles[0].id)
     path = after.profiles[0]
@@ -257,3 +268,45 @@ def test_lettering_is_written_as_curves(tmp_path):
     save(tmp_path / "a.svg", a=lettering("Oq", 10, "GFS Didot"))
     back = outlines(tmp_path / "a.svg")
     assert area(*back) == pytest.approx(area(lettering("Oq", 10, "GFS Didot")), rel=1e-6)
+
+
+# Round a cylinder
+
+
+def test_a_wrapped_rectangle_is_a_part_of_a_tube():
+    solid = wrap(rectangle(30, 8).at(-15), radius=20, height=2, below=1)
+    ring = pi * (22**2 - 19**2) * 8 * 30 / (2 * pi * 20)
+    errors = [abs(measure(solid, tolerance=fine).volume - ring) for fine in (0.2, 0.05, 0.0125)]
+    assert errors[-1] < 1e-3 * ring and errors == sorted(errors, reverse=True)
+    low, high = np.array(measure(solid, tolerance=0.001).bounds)
+    np.testing.assert_allclose((low[1], low[2], high[2]), (-22, 0, 8), atol=2e-3)
+    np.testing.assert_allclose((-low[0], high[0]), 22 * np.sin(15 / 20), atol=2e-3)
+
+
+def test_letters_engraved_in_a_cylinder_are_as_deep_as_they_should_be():
+    letters = lettering("Ada & Bob", 6).at(-16, 10)
+    whole, cut = (measure(solid, tolerance=0.01) for solid in (BAR, BAR - wrap(letters, radius=20, height=1, below=1)))
+    # Between the radii 19 and 20, of which the outline has its true size at 20.
+    assert whole.volume - cut.volume == pytest.approx(area(letters) * (20**2 - 19**2) / (2 * 20), rel=0.01)
+    assert cut.closed and cut.components == 1
+
+
+@pytest.mark.parametrize(
+    ("fields", "words"),
+    [
+        ({"radius": 4}, "more than once round"),
+        ({"below": 20}, "through the axis"),
+        ({"height": 0, "below": 0}, "no thickness"),
+    ],
+)
+def test_what_cannot_be_wrapped_is_said(fields, words):
+    (told,) = messages(wrap(rectangle(30, 8), **fields))
+    assert words in told
+
+
+def test_an_outline_that_is_wrapped_stays_where_it_touches():
+    document = document_of(a=rectangle(10, 6).at(0, 3, 5))
+    after = OPERATIONS["make_solid"](document, "wrap", document.profiles[0].id, radius=25)
+    solid = measure(after.solids[0], tolerance=0.001)
+    np.testing.assert_allclose(solid.bounds[0], (0, 3, 5 + 26 * np.cos(10 / 25) - 25 - 2 * np.cos(10 / 25)), atol=0.01)
+    np.testing.assert_allclose(solid.bounds[1][1:], (9, 6), atol=0.01)

@@ -36,7 +36,7 @@ def random_leaf(draw):
              lambda: script.bezier([(0, 0), (0, number), (5, 5)], closed=draw.random() < 0.5),
              lambda: script.bspline([(0, 0), (9, number), (9, 9), (0, 9)], closed=draw.random() < 0.7),
              lambda: script.sweep(script.circle(number), script.path([("move", (0, 0, 0)), ("line", (0, 1, 9))])),
-             lambda: script.lettering(draw.choice(["Ag", "", "a\nб"]), number),
+             lambda: script.lettering(draw.choice(["Ag", "", "a\nש"]), number),
              lambda: script.loft(script.rectangle(), script.circle(number).at(0, 0, 9)),
              lambda: script.pipe(script.bezier([(0, 0), (9, 9), (20, 0)]), number),
              lambda: script.instance(f"n{draw.randrange(40)}")]  # fmt: skip

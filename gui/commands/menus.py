@@ -27,7 +27,7 @@ ORDER = {
     "Combine": "union difference intersection hull minkowski - group Combine/Change_to - "
     "linear_array polar_array mirror",
     "Curve": "draw_pen draw_freehand draw_rectangle draw_ellipse draw_polygon draw_star draw_arc draw_control_points "
-    "draw_through_points - Curve/Work_plane look_at_plane - extrude revolve sweep loft pipe - "
+    "draw_through_points - Curve/Work_plane look_at_plane - extrude revolve sweep loft pipe wrap - "
     "Curve/Nodes Curve/Nodes_become Curve/Segments_become Curve/Joints Curve/Align_nodes transform_box - "
     "unite_outlines subtract_outlines intersect_outlines "
     "exclude_outlines - offset_outline stroke_outline "

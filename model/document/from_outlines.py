@@ -84,4 +84,19 @@ class Pipe(Node):
     tolerance: Number | None = fields.tolerance()
 
 
-FROM_OUTLINES: tuple[type[Node], ...] = (Extrude, Revolve, Sweep, Loft, Pipe)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Wrap(Node):
+    """An outline laid round a cylinder about the z axis: its x runs round, its y is z; x = 0 is in front, at -y.
+
+    It reaches from `below` under the cylinder's surface to `height` above it.
+    """
+
+    title: ClassVar[str] = "Wrap"
+    operands: ClassVar[tuple[int, int | None]] = (1, 1)
+    radius: Number = fields.size(20.0, "Radius", "Of the cylinder")
+    height: Number = fields.length(1.0, "Height", "How far it stands out", minimum=0.0)
+    below: Number = fields.length(1.0, "Below", "How far it goes in", minimum=0.0)
+    tolerance: Number | None = fields.tolerance()
+
+
+FROM_OUTLINES: tuple[type[Node], ...] = (Extrude, Revolve, Sweep, Loft, Pipe, Wrap)

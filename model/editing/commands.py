@@ -181,6 +181,7 @@ DOCUMENT_COMMANDS: tuple[Command, ...] = (
     _make_solid_command("sweep", "Sweep", 2, 2, "", "Draw the selected outline along the selected path"),
     _make_solid_command("loft", "Loft", 2, None, "", "Stretch a solid over the selected outlines, in their order"),
     _make_solid_command("pipe", "Pipe", 1, None, "", "A round bar along each selected path"),
+    _make_solid_command("wrap", "Wrap", 1, None, "", "Lay each selected outline round a cylinder"),
     _combine_command("union", "Union", "Ctrl+U", "All that lies in any of the selected nodes"),
     _combine_command("difference", "Difference", "Ctrl+D", "The first selected node less the others"),
     _combine_command("intersection", "Intersection", "Ctrl+I", "What lies in all of the selected nodes"),

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from ..document.document import Document
 from ..document.errors import Refusal
-from ..document.from_outlines import FROM_OUTLINES, Extrude, Loft, Pipe, Revolve, Sweep
+from ..document.from_outlines import FROM_OUTLINES, Extrude, Loft, Pipe, Revolve, Sweep, Wrap
 from ..document.kind_names import function_name
 from ..document.nodes import Node, field_specs
 from ..document.outlines import OUTLINES, Outlines
-from ..document.placement import Move, Placement, Turn
+from ..document.placement import Move, Placement, Turn, moved
 from ..document.resolve import resolve
 from ..document.tree import change_each, next_number, outermost, put, trails, walk
 from .fitting import carried_into, check_free, check_left, lies_flat, named_apart, steps_above
@@ -49,7 +49,7 @@ def make_solid(document: Document, kind: str, ids: Sequence[str] | str, **fields
     groups = _SORTED[wanted](document, outlines)
     number = next_number(document)
     solids = [
-        _placed(wanted, group).with_(id=f"n{number + i}", **checked) for i, group in enumerate(groups)
+        _placed(wanted, group, checked).with_(id=f"n{number + i}", **checked) for i, group in enumerate(groups)
     ]  # fmt: skip
     document = declaring(document, list(checked.values()))
     document = change_each(document, ids, lambda node: None)
@@ -64,7 +64,7 @@ def _checked(kind: type[Node], fields: dict[str, Any]) -> dict[str, Any]:
     return {name: specs[name].checked(value, kind.title) for name, value in fields.items()}
 
 
-def _placed(kind: type[Node], outlines: Sequence[Node]) -> Node:
+def _placed(kind: type[Node], outlines: Sequence[Node], fields: Mapping[str, Any]) -> Node:
     """The solid, with the placement that keeps its outlines where they stand in space."""
     *rest, leading = outlines if kind is Sweep else outlines[::-1]
     own, place = _parted(leading.placement, kind in (Sweep, Pipe))
@@ -75,6 +75,10 @@ def _placed(kind: type[Node], outlines: Sequence[Node]) -> Node:
         return Sweep(children=(section, leading), placement=place)
     if kind is Revolve:
         place = Placement((LYING, *place.steps))
+    if kind is Wrap:
+        place = Placement(
+            (LYING, moved(0.0, 0.0, f"-({fields.get('radius', Wrap(children=(leading,)).radius)})"), *place.steps)
+        )
     others = [carried_into(outline, place.steps) for outline in reversed(rest)]
     return kind(children=(leading, *others), placement=place)
 
@@ -125,6 +129,7 @@ def _all_closed(document: Document, outlines: list[Node]) -> list[list[Node]]:
 
 _SORTED: dict[type[Node], Callable[[Document, list[Node]], list[list[Node]]]] = {
     Extrude: _each_closed, Revolve: _each, Sweep: _pair, Loft: _all_closed, Pipe: _each,
+    Wrap: _each_closed,
 }  # fmt: skip
 
 

@@ -10,7 +10,7 @@ from collections.abc import Iterable, Sequence
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
-from ..document.from_outlines import Extrude, Loft, Pipe, Revolve, Sweep
+from ..document.from_outlines import Extrude, Loft, Pipe, Revolve, Sweep, Wrap
 from ..document.nodes import Node
 from ..document.outlines import Bezier, BSpline, Circle, Lettering, Path, Polygon, Rectangle
 from .shapes import Value
@@ -275,7 +275,18 @@ def pipe(
     return Pipe(children=(along,), radius=radius, bore=bore, rounded=rounded, segments=segments, tolerance=tolerance)
 
 
+def wrap(
+    outline: Node, radius: Value = 20, height: Value = 1, below: Value = 1, tolerance: Value | None = None
+) -> Wrap:
+    """An outline laid round a cylinder about the z axis, from `below` under its surface to `height` above it.
+
+    >>> cylinder(radius=20, height=30) - wrap(lettering("Ada", 12).at(-12, 10), radius=20)
+    <Difference ...>
+    """
+    return Wrap(children=(outline,), radius=radius, height=height, below=below, tolerance=tolerance)
+
+
 __all__ = [
     "bezier", "bspline", "circle", "construction", "continuity", "extrude", "lettering", "loft", "outlines", "path",
-    "pipe", "polygon", "rectangle", "revolve", "sweep",
+    "pipe", "polygon", "rectangle", "revolve", "sweep", "wrap",
 ]  # fmt: skip

@@ -7,16 +7,16 @@ import math
 import numpy as np
 from manifold3d import CrossSection, Manifold
 
-from ...document.from_outlines import Extrude, Revolve
+from ...document.from_outlines import Extrude, Revolve, Wrap
 from ...document.nodes import Node, range_fault
 from ...document.outlines import CURVES
 from ...outline.paths import path_of
 from ...path.path import Contour, Path
 from ..failure import NoSolid
 from ..leaves import fineness_of, segments_of
-from ..tessellation import MAX_SEGMENTS
+from ..tessellation import MAX_SEGMENTS, circle_segments
 from .drawn import drawn_solid
-from .rings import check_size
+from .rings import MOST_POINTS, check_size
 from .sections import area_of, section_of
 from .taper import tapered
 
@@ -87,7 +87,33 @@ def solid_of_revolve(node: Revolve, tolerance: float) -> Manifold:
     return solid.rotate((0.0, 0.0, start)).as_original() if start else solid
 
 
-def _fine(node: Extrude | Revolve, tolerance: float) -> float:
+@drawn_solid.register
+def solid_of_wrap(node: Wrap, tolerance: float) -> Manifold:
+    fine = _fine(node, tolerance) / 2.0
+    section = section_of(node.children[0], fine)
+    if section.is_empty():
+        raise NoSolid("Wrap: the outline encloses nothing")
+    radius, height, below = float(node.radius), float(node.height), float(node.below)
+    if below >= radius:
+        raise NoSolid(f"Wrap: {below:g} mm below is through the axis of a cylinder of radius {radius:g} mm")
+    if height + below <= 0.0:
+        raise NoSolid("Wrap: height and below are both 0: it has no thickness")
+    low, _, high, _ = section.bounds()
+    if high - low > 2.0 * math.pi * radius:
+        raise NoSolid(f"Wrap: the outline is {high - low:g} mm wide, which is more than once round")
+    step = 2.0 * math.pi * radius / circle_segments(radius + height, fine)
+    if 4.0 * section.area() / step**2 > MOST_POINTS:
+        raise NoSolid(f"Wrap: a tolerance of {2.0 * fine:g} mm makes too many points of it; take a coarser one")
+    flat = Manifold.extrude(section, height + below).refine_to_length(step)
+
+    def bent(points: np.ndarray) -> np.ndarray:
+        angle, reach = points[:, 0] / radius, radius - below + points[:, 2]
+        return np.column_stack((reach * np.sin(angle), -reach * np.cos(angle), points[:, 1]))
+
+    return flat.warp_batch(bent).as_original()
+
+
+def _fine(node: Extrude | Revolve | Wrap, tolerance: float) -> float:
     """The tolerance of its outline: the node's own where it has one, also beside segments of its own."""
     return tolerance if node.tolerance is None else float(node.tolerance)
 
