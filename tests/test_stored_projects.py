@@ -24,6 +24,7 @@ from solidtree.model.script import (
     hull,
     imported_mesh,
     instance,
+    lettering,
     linear_array,
     loft,
     minkowski,
@@ -50,7 +51,8 @@ PROJECTS = Path(__file__).parent / "projects"
 
 def format_1() -> Document:
     """Every kind of node and step that format 1 knows, with all that can be said of a node."""
-    width = parameter("width", 12, minimum=1, maximum=90, note="of the block", group="size")
+    width = parameter("width", 12, minimum=1, maximum=90, note="of the block", group="size"    wrap,
+)
     depth = parameter("depth", width / 2, choices=())
     block = box(width, depth, "2 in").named("block").coloured("#336699").noted("made of a parameter")
     tetrahedron = polyhedron([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
@@ -93,7 +95,7 @@ def format_2() -> Document:
 
 
 def format_3() -> Document:
-    """Format 2, with curves and what is made of them, and outlines that stand by themselves."""
+    """Format 2, with curves, lettering and what is made of them, and outlines that stand by themselves."""
     before = format_2()
     rail = path([("move", (0, 0, 0)), ("cubic", (0, 0, 10), (10, 0, 10), (10, 0, 20))]).named("rail")
     ring = bspline([(8, 0), (8, 8), (-8, 8), (-8, -8), (8, -8)], 2, knots=[0, 1, 2, 3, 4, 6], closed=True)
@@ -111,6 +113,7 @@ def format_3() -> Document:
         sweep(circle(1), rail, twist=30, end_scale=0.5).named("swept"),
         loft(rectangle(9, 9, centred=True), circle(3).at(0, 0, 12), smooth=True).named("loft"),
         pipe(rail.named(""), 2, bore=1, rounded=True, segments=24).named("pipe"),
+        wrap(lettering("Ab\nγ", "depth", "GFS Didot", alignment="right", slant=12, features="kern=0"), 9).named("label"),
     ]
     profiles = [
         strung.named("strung").turned(x=90).at(0, 5, 0),

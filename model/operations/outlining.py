@@ -76,9 +76,8 @@ def _placed(kind: type[Node], outlines: Sequence[Node], fields: Mapping[str, Any
     if kind is Revolve:
         place = Placement((LYING, *place.steps))
     if kind is Wrap:
-        place = Placement(
-            (LYING, moved(0.0, 0.0, f"-({fields.get('radius', Wrap(children=(leading,)).radius)})"), *place.steps)
-        )
+        radius = fields.get("radius", Wrap(children=(leading,)).radius)
+        place = Placement((LYING, moved(0.0, 0.0, f"-({radius})"), *place.steps))
     others = [carried_into(outline, place.steps) for outline in reversed(rest)]
     return kind(children=(leading, *others), placement=place)
 
