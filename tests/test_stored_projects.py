@@ -43,6 +43,7 @@ from solidtree.model.script import (
     sweep,
     torus,
     union,
+    wrap,
 )  # fmt: skip
 
 TETRAHEDRON = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"
@@ -51,8 +52,7 @@ PROJECTS = Path(__file__).parent / "projects"
 
 def format_1() -> Document:
     """Every kind of node and step that format 1 knows, with all that can be said of a node."""
-    width = parameter("width", 12, minimum=1, maximum=90, note="of the block", group="size"    wrap,
-)
+    width = parameter("width", 12, minimum=1, maximum=90, note="of the block", group="size")
     depth = parameter("depth", width / 2, choices=())
     block = box(width, depth, "2 in").named("block").coloured("#336699").noted("made of a parameter")
     tetrahedron = polyhedron([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 4)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (2, 0, 3)])
@@ -113,7 +113,7 @@ def format_3() -> Document:
         sweep(circle(1), rail, twist=30, end_scale=0.5).named("swept"),
         loft(rectangle(9, 9, centred=True), circle(3).at(0, 0, 12), smooth=True).named("loft"),
         pipe(rail.named(""), 2, bore=1, rounded=True, segments=24).named("pipe"),
-        wrap(lettering("Ab\nγ", "depth", "GFS Didot", alignment="right", slant=12, features="kern=0"), 9).named("label"),
+        wrap(lettering("Ab\nγ", "depth", "GFS Didot", alignment="right", features="kern=0"), 9).named("label"),
     ]
     profiles = [
         strung.named("strung").turned(x=90).at(0, 5, 0),
