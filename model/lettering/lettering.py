@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 
 from ..document.errors import Refusal
 from ..document.outlines import Lettering
-from ..path.path import Path
+from ..path.path import Contour, Path
 from .face import Face
-from .layout import Layout, Style, lay_out, outline_of
+from .layout import Layout, Style, lay_out
 from .library import face_of, fallbacks
 from .runs import missing_in
 
@@ -23,52 +23,67 @@ LONGEST = 20_000
 _SETTING = re.compile(r"([A-Za-z0-9 ]{1,4}?)\s*(?:[=:]\s*([-+]?\d+(?:\.\d+)?))?")
 NAMED = 6
 """Characters that a remark names."""
-BOLD = 1e-4
+BOLD = 1e-3
 """Share of the em within which outlines are grown."""
+Place = tuple[tuple[str, float], ...]
+Scale = tuple[float, float, float]
+Drawn = tuple[Face, str, Place, Scale, float]
+"""A face, a glyph, a place in the design space, a map (across, shear, up) from font units to mm, and a weight in mm."""
 
 
 def path_of_lettering(node: Lettering) -> Path:
     """A resolved lettering in its own axes, mm, filled by the non-zero rule. Raises Refusal."""
-    faces, layout, location = _laid_out(node)
-    path = outline_of(layout, faces, location)
-    weight = float(node.weight)  # type: ignore[arg-type]
-    if weight and path.contours:
-        from ..path.areas.offsetting import offset
-
-        path = offset(path, weight, BOLD * layout.em, "miter")
-    return path
+    contours: list[Contour] = []
+    for drawn, (x, y) in _placed(node):
+        contours += _outline(*drawn).transformed(((1.0, 0.0, x), (0.0, 1.0, y))).contours
+    return Path(tuple(contours))
 
 
 def rings_of_lettering(node: Lettering, tolerance: float, most: int) -> list[NDArray[np.float64]]:
-    """The same flattened: (k, 2) points a contour, mm, within `tolerance`; a glyph that has been set before in this
-    size is placed alone. Raises Refusal, also for more than `most` points in all."""
-    from ..path.flatten import flatten
-
-    if float(node.weight):  # type: ignore[arg-type]
-        return flatten(path_of_lettering(node), tolerance, most)
-    faces, layout, location = _laid_out(node)
+    """The same flattened: (k, 2) points a contour, mm, within `tolerance`. Raises Refusal, also for more than `most`
+    points in all."""
     rings: list[NDArray[np.float64]] = []
     total = 0
-    for one in layout.glyphs:
-        (across, shear, x), (_, up, y) = one.matrix.tolist()
-        place = tuple(sorted(location.items())) if one.face == 0 else ()
-        flat = _flattened(faces[one.face], one.glyph, place, (across, shear, up), tolerance)
-        rings += [np.add(points, (x, y)) for points in flat]
+    for drawn, place in _placed(node):
+        flat = _flattened(*drawn, tolerance)
+        rings += [np.add(points, place) for points in flat]
         total += sum(map(len, flat))
         if total > most:
             raise Refusal(f"a tolerance of {tolerance:g} mm makes more than {most:,} points; take a coarser one")
     return rings
 
 
+def _placed(node: Lettering) -> Iterator[tuple[Drawn, tuple[float, float]]]:
+    """Each glyph, and where its origin is."""
+    faces, layout, location = _laid_out(node)
+    weight, own = float(node.weight), tuple(sorted(location.items()))  # type: ignore[arg-type]
+    for one in layout.glyphs:
+        (across, shear, x), (_, up, y) = one.matrix.tolist()
+        yield (faces[one.face], one.glyph, () if one.face else own, (across, shear, up), weight), (x, y)
+
+
+# What has been drawn before is placed alone: of a text that is edited, the letters that were there.
+
+
+@lru_cache(maxsize=2048)
+def _outline(face: Face, glyph: str, location: Place, scale: Scale, weight: float) -> Path:
+    """A glyph about its own origin, mm."""
+    across, shear, up = scale
+    path = face.outline(glyph, dict(location)).transformed(((across, shear, 0.0), (0.0, up, 0.0)))
+    if weight and path.contours:
+        from ..path.areas.offsetting import offset
+
+        path = offset(path, weight, BOLD * up * face.units_per_em, "miter")
+    return path
+
+
 @lru_cache(maxsize=4096)
 def _flattened(
-    face: Face, glyph: str, location: tuple[tuple[str, float], ...], map_: tuple[float, float, float], tolerance: float
+    face: Face, glyph: str, location: Place, scale: Scale, weight: float, tolerance: float
 ) -> list[NDArray[np.float64]]:
     from ..path.flatten import flatten
 
-    across, shear, up = map_
-    outline = face.outline(glyph, dict(location)).transformed(((across, shear, 0.0), (0.0, up, 0.0)))
-    return flatten(outline, tolerance)
+    return flatten(_outline(face, glyph, location, scale, weight), tolerance)
 
 
 def remarks_on(node: Lettering) -> list[str]:
