@@ -48,7 +48,7 @@ def polygon(points: Iterable[Sequence[Value]] = (), loops: Iterable[Sequence[int
 
 
 def lettering(
-    text: str,
+    text: str = "Text",
     size: Value = 10,
     font: str | os.PathLike[str] = "DejaVu Sans",
     *,

@@ -15,7 +15,6 @@ from ..document.nodes import Hull, Node
 from ..document.outlines import Lettering
 from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere
 from ..document.resolve import Resolver
-from ..document.tree import walk
 from ..measuring.measure import Measures, measure
 from ..path.path import Path
 from ..worker.shown import Message
@@ -110,11 +109,17 @@ def profile_result(root: Node) -> ProfileResult:
 def remarks_on_lettering(root: Node) -> tuple[Message, ...]:
     """What there is to say of the fonts of a resolved tree: characters that they lack, each told once a node."""
     found: dict[Message, None] = {}
-    for node in walk(root):
+    stack, seen = [root], {id(root)}
+    while stack:
+        node = stack.pop()
         if isinstance(node, Lettering):
             from ..lettering.lettering import remarks_on
 
             found |= dict.fromkeys(Message(node.id, node.label, remark, False) for remark in remarks_on(node))
+        for child in reversed(node.children):
+            if id(child) not in seen:  # what instances share stands in many places
+                seen.add(id(child))
+                stack.append(child)
     return tuple(found)
 
 
