@@ -28,7 +28,7 @@ from .curves.editing.edit_tool import EditTool
 from .curves.joints_page import JointsPage
 from .curves.nodes_page import NodesPage
 from .curves.panel import CurvePanel
-from .curves.spline_page import SplinePage
+from .curves.splines.spline_page import SplinePage
 from .docks import arrange, give_sizes, switch_layout
 from .evaluation import Evaluation
 from .files import Files

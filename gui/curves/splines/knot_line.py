@@ -13,7 +13,7 @@ from .knot_drag import KnotDrag, rounded
 from .knot_paint import Look, Room, paint
 
 if TYPE_CHECKING:
-    from ...model.outline.basis import Basis
+    from ....model.outline.basis import Basis
 
 Reach = Callable[[tuple[int, ...]], tuple[float, float, bool, bool]]
 

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPaintDevice, QPainter, QPen, QPolygonF
 
-from ..theme import LIGHT, colours_now
+from ...theme import LIGHT, colours_now
 
 if TYPE_CHECKING:
-    from ...model.outline.basis import Basis
+    from ....model.outline.basis import Basis
 
 SIDE, TOP = 12, 8  # room beside and above the functions, in logical pixels
 MARKERS, BELOW = 40, 16  # room for the markers, and for numbers below these
@@ -105,7 +105,7 @@ def _paint_ground(painter: QPainter, room: Room, basis: Basis) -> None:
 def _paint_functions(painter: QPainter, room: Room, basis: Basis, look: Look) -> None:
     import numpy as np
 
-    from ...render.curves.construction_colours import colour_of_point
+    from ....render.curves.construction_colours import colour_of_point
 
     across, heights = room.x(basis.at), room.y(basis.values)
     told = look.chosen | ({look.hovered} if look.hovered is not None else set())

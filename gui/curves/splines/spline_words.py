@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ...model.document.outlines import Bezier, BSpline
+from ....model.document.outlines import Bezier, BSpline
 
 if TYPE_CHECKING:
-    from ...model.document.document import Document
-    from ...model.outline.basis import Basis
+    from ....model.document.document import Document
+    from ....model.outline.basis import Basis
 
 DEGREES = {1: "linear", 2: "quadratic", 3: "cubic", 4: "quartic", 5: "quintic"}
 SAME = 1e-9
@@ -31,9 +31,9 @@ def curve_words(node: Bezier | BSpline, basis: Basis | None) -> str:
 
 def changes_by(before: Document, after: Document, node_id: str) -> str | None:
     """How far the curve of a node has moved, in words; None where it is the same. Raises Refusal."""
-    from ...model.document.tree import find
-    from ...model.operations.curves.addressing import plain_values
-    from ...model.operations.curves.deviations import deviation
+    from ....model.document.tree import find
+    from ....model.operations.curves.addressing import plain_values
+    from ....model.operations.curves.deviations import deviation
 
     off = deviation(*(plain_values(document, find(document, node_id)) for document in (before, after)))
     return None if off <= SAME else f"{off:.3g} mm at most"

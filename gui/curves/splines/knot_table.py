@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
 )
 
 if TYPE_CHECKING:
-    from ...model.outline.basis import Basis, Stack
+    from ....model.outline.basis import Basis, Stack
 
 TITLES = ("Knot", "Times", "Smooth")
 TIPS = (

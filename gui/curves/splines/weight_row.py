@@ -8,8 +8,8 @@ from PySide6.QtCore import Qt, QTimer, Signal
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QSlider, QVBoxLayout, QWidget
 
-from ..panels.number_field import QUIET, NumberField, Steps
-from ..partition.order_bar import StepSlider
+from ...panels.number_field import QUIET, NumberField, Steps
+from ...partition.order_bar import StepSlider
 
 FINE = 100  # steps of the slider for each tenfold; from a tenth to ten
 WEIGHT = Steps(0.1, 0.01, 1.0, minimum=0.0, above=True)

@@ -19,11 +19,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ...model.document.errors import Refusal
-from ...model.document.expression import number
-from ...model.document.outlines import Bezier, BSpline
-from ..icons import icon
-from ..panels.heading import heading
+from ....model.document.errors import Refusal
+from ....model.document.expression import number
+from ....model.document.outlines import Bezier, BSpline
+from ...icons import icon
+from ...panels.heading import heading
 from .asked_tip import AskedTip
 from .knot_section import KnotSection
 from .spline_edits import Previewed, do_and_tell, plain, would
@@ -31,8 +31,8 @@ from .spline_words import curve_words
 from .weight_row import WeightRow
 
 if TYPE_CHECKING:
-    from ...model.outline.basis import Basis
-    from .active import ActiveCurve, Call
+    from ....model.outline.basis import Basis
+    from ..active import ActiveCurve, Call
 
 
 class SplinePage(QScrollArea):
@@ -176,7 +176,7 @@ class SplinePage(QScrollArea):
 def _basis_of(node: Bezier | BSpline) -> Basis | None:
     if isinstance(node, Bezier):
         return None
-    from ...model.outline.basis import basis_of
+    from ....model.outline.basis import basis_of
 
     try:
         return basis_of(node)

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QGridLayout, QPushButton, QSizePolicy, QVBoxLayout, QWidget
 
-from ...model.document.errors import Refusal
-from ...model.document.expression import Expression, number
-from ...model.document.outlines import BSpline
-from ..panels.number_field import text_of
+from ....model.document.errors import Refusal
+from ....model.document.expression import Expression, number
+from ....model.document.outlines import BSpline
+from ...panels.number_field import text_of
 from .asked_tip import AskedTip
 from .knot_line import KnotLine
 from .knot_table import KnotTable
 from .spline_edits import Previewed, do_and_tell, plain, would
 
 if TYPE_CHECKING:
-    from ...model.outline.basis import Basis
-    from .active import ActiveCurve, Call
+    from ....model.outline.basis import Basis
+    from ..active import ActiveCurve, Call
 
 
 class KnotSection(QWidget):
@@ -163,7 +163,7 @@ class KnotSection(QWidget):
         if basis is None or not isinstance(resolved, BSpline):
             self.line.show_basis(None, chosen, locked, None)
             return
-        from ...model.outline.basis import reach
+        from ....model.outline.basis import reach
 
         self.line.show_basis(basis, chosen, locked, lambda numbers: reach(resolved, basis, numbers))
         row = basis.stack_of(self.line.focused)
@@ -175,6 +175,6 @@ class KnotSection(QWidget):
 
 
 def _moves(basis: Basis, targets: dict[int, float]) -> list[Call]:
-    from ...model.outline.basis import in_order
+    from ....model.outline.basis import in_order
 
     return [("set_knot", (one, targets[one]), {}) for one in in_order(basis.knots, targets)]

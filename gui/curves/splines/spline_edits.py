@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from ...model.document.document import parameter_values
-from ...model.document.errors import Refusal
-from ...model.document.expression import Expression
+from ....model.document.document import parameter_values
+from ....model.document.errors import Refusal
+from ....model.document.expression import Expression
 from .spline_words import changes_by
 
 if TYPE_CHECKING:
-    from .active import ActiveCurve, Call
+    from ..active import ActiveCurve, Call
 
 SAMPLED = 400  # control points; of more, what would change is not looked for beforehand
 
@@ -69,7 +69,7 @@ def would(active: ActiveCurve, name: str, *arguments: Any) -> str:
     node = active.node
     if node is None or len(active.rows) > SAMPLED:
         return "the curve changes"
-    from ...model.operations.operations import OPERATIONS
+    from ....model.operations.operations import OPERATIONS
 
     try:
         after = OPERATIONS[name](active.document, node.id, *arguments)

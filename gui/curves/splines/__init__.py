@@ -1,0 +1,1 @@
+"""The B-spline page of the Curve panel: knots, weights, degree."""
