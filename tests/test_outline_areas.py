@@ -116,3 +116,12 @@ def test_what_cannot_be_done_is_said_in_words(arguments, words):
     with pytest.raises(Refusal, match=words):
         work.do(*arguments)
     assert work.document is before
+
+
+def test_an_offset_by_nothing_is_no_step_and_a_stroke_too_thin_asks_for_more_width():
+    work = session(Rectangle(id="n1", name="Bar"))
+    before = work.document
+    work.do("offset_outline", "n1", 0)
+    assert work.document is before and not work.undo()
+    with pytest.raises(Refusal, match="take a greater width"):
+        work.do("stroke_outline", "n1", 1e-9)

@@ -54,7 +54,10 @@ def offset_outline(
     """
     from ...path.areas.offsetting import offset
 
-    return _each(document, ids, lambda path: offset(path, float(distance), float(tolerance), join))
+    def larger(path: Curves) -> Curves:
+        return offset(path, float(distance), float(tolerance), join) if float(distance) else path
+
+    return _each(document, ids, larger, "a smaller distance")
 
 
 def stroke_outline(
@@ -71,16 +74,21 @@ def stroke_outline(
     """
     from ...path.areas.offsetting import outline
 
-    return _each(document, ids, lambda path: outline(path, float(width), float(tolerance), join, ends))
+    return _each(
+        document, ids, lambda path: outline(path, float(width), float(tolerance), join, ends), "a greater width"
+    )
 
 
-def _each(document: Document, ids: Sequence[str] | str, changed: Callable[[Curves], Curves]) -> Document:
+def _each(document: Document, ids: Sequence[str] | str, changed: Callable[[Curves], Curves], cure: str) -> Document:
     new: dict[str, Node] = {}
     for node in _outlines(document, listed(ids)):
         path = own_axes_path(document, node.id)
-        result = _named(node, lambda path=path: changed(_flat(path)))
+        flat = _named(node, lambda path=path: _flat(path))
+        result = _named(node, lambda flat=flat: changed(flat))
+        if result is flat:
+            continue
         if not result.contours:
-            raise Refusal(f"nothing is left of “{node.label}”: take a smaller distance")
+            raise Refusal(f"nothing is left of “{node.label}”: take {cure}")
         new[node.id] = _path_instead(node, result)
     return change_each(document, list(new), lambda node: new[node.id])
 
