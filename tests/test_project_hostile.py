@@ -95,7 +95,7 @@ def test_places_that_cannot_be_read(tmp_path):
         ),
         (
             project({"format": 1, "nodes": {"n1": {"kind": "ImportedMesh", "asset": "a" * 64}}, "solids": ["n1"]}),
-            "node n1 (“Imported mesh”): its mesh assets/aaaaaaaaaaaa… is missing",
+            "node n1 (“Imported mesh”): its file assets/aaaaaaaaaaaa… is missing",
         ),
         (
             project(
