@@ -11,10 +11,11 @@ import uharfbuzz as hb
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.lettering.bidi import levels_of, visual_order
-from solidtree.model.lettering.layout import Style, lay_out, outline_of
+from solidtree.model.lettering.layout import Style, lay_out
 from solidtree.model.lettering.library import face_of, fallbacks, find, installed
 from solidtree.model.lettering.shaping import set_line
 from solidtree.model.operations.operations import OPERATIONS
+from solidtree.model.path.path import Path as Curves
 from solidtree.model.project.project_file import open_project, save_project
 from solidtree.model.script import (
     circle,
@@ -33,6 +34,12 @@ from solidtree.model.solid.information import information
 BUNDLED = Path(str(files("solidtree.resources"))) / "fonts"
 BAR = cylinder(radius=20, height=30)
 DEJAVU, DIDOT = face_of("DejaVu Sans"), face_of("GFS Didot")
+
+
+def outline_of(layout, faces):
+    """All glyphs of a layout as one path."""
+    drawn = (faces[one.face].outline(one.glyph).transformed(one.matrix) for one in layout.glyphs)
+    return Curves(tuple(contour for path in drawn for contour in path.contours))
 
 
 def shaped_by_harfbuzz(name, text, direction, script, features=None):

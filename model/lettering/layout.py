@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from ..document.errors import Refusal
 from ..document.outlines import ALIGNMENTS, ANCHORS, DIRECTIONS
-from ..path.path import Contour, Path
 from .face import DEFAULT, Face, Location
 from .runs import missing_in
 from .shaping import Set, set_line
@@ -102,18 +101,6 @@ def lay_out(text: str, faces: Sequence[Face], style: Style, location: Location =
             laid.append(Laid(one.face, one.glyph, begin + one.character, em * one.advance, matrix))
         begin += len(line) + 1
     return Layout(tuple(laid), em, tuple((em * widths).tolist()), tuple(missing_in(text, faces)))
-
-
-def outline_of(layout: Layout, faces: Sequence[Face], location: Location = DEFAULT) -> Path:
-    """All glyphs as one path, mm, to be filled by the non-zero rule. Raises Refusal."""
-    known: dict[tuple[int, str], Path] = {}
-    contours: list[Contour] = []
-    for one in layout.glyphs:
-        key = one.face, one.glyph
-        if key not in known:
-            known[key] = faces[one.face].outline(one.glyph, location if one.face == 0 else DEFAULT)
-        contours += known[key].transformed(one.matrix).contours
-    return Path(tuple(contours))
 
 
 def _check(style: Style) -> None:

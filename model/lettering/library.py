@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 import os
 import re
 import sys
@@ -107,11 +106,6 @@ def keep(path: str | os.PathLike[str], number: int = 0) -> tuple[str, str]:
     except Refusal as refusal:
         raise Refusal(f"{Path(path).name}: {refusal}") from None
     return name, default_store().put(data)
-
-
-def sha_of(face: FontFile) -> str:
-    """The SHA-256 of the file that a face lies in."""
-    return hashlib.sha256(face.path.read_bytes()).hexdigest()
 
 
 @lru_cache(maxsize=OPEN)
