@@ -118,7 +118,7 @@ def test_a_save_that_fails_leaves_the_old_file(document, store, tmp_path, monkey
 def test_a_save_without_its_mesh_is_refused(document, store, tmp_path):
     path = tmp_path / "plate.solidtree"
     path.write_bytes(b"old")
-    with pytest.raises(Refusal, match=r"“Imported mesh”: the imported file .* cannot be read"):
+    with pytest.raises(Refusal, match=r"“Imported mesh”\): the imported file .* cannot be read"):
         save_project(document, path, store=AssetStore(tmp_path / "empty"))
     assert path.read_bytes() == b"old"
 

@@ -69,7 +69,7 @@ def test_places_that_cannot_be_read(tmp_path):
          "section “a”: the normal must be a direction"),
         (project({"format": 2, "sets": [{"name": "a", "values": [["w"]]}]}), "is no pair of a parameter's name"),
         (project({"format": 2, "sets": [{"name": "a", "values": [["w", "=w +"]]}]}), "w +"),
-        (project({"format": 7}), "was written by a newer Solidtree (format 7); this one reads up to 3"),
+        (project({"format": 7}), "was written by a newer Solidtree (format 7); this one reads up to 4"),
         (project({"format": 1, "nodes": {"n1": {"kind": "Teapot"}}, "solids": ["n1"]}), "n1 is of an unknown kind"),
         (project({"format": 1, "nodes": {}, "solids": ["a\nb\ud800"]}), "node a·b·, asked for"),
         (project({"format": 1, "nodes": {"n1": {"kind": "Box", "size": [1, 1]}}, "solids": ["n1"]}), "node n1"),

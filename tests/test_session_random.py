@@ -122,6 +122,8 @@ def random_step(draw, document):
     name = pick(["width", "depth"], ["other", "if", "sin", "2x", "fresh"])
     vector = pick([(1, 0, 0), (0, 2, -1), (4, "width", 1)], [(0, 0, 0), (1, 2), "z", None, (float("nan"), 0, 0)])
     label = pick(["a", "b"], ["", "x" * 300])
+    font, glyphs = pick(["DejaVu Sans", "copy"], ["gone", "", None]), pick(["A", ["g", "A"]], ["gone", [], None])
+    glyph = {"advance": number, "points": [(0, 0), (0, 500), (900, number)], "segments": draw.choice(["MLLl", "MLL"])}
     changes = [
         lambda: ("turn", many(), draw.choice(["x", "z", vector]), number),
         lambda: ("turn", many(), "y", 30, vector),
@@ -156,6 +158,11 @@ def random_step(draw, document):
         lambda: ("set_section", label, {"active": draw.choice([True, False, 1])}),
         lambda: ("rename_section", label, draw.choice(["a", "b", ""])),
         lambda: ("delete_section", label),
+        lambda: (draw.choice(["carry_font", "release_font"]), font),
+        lambda: ("copy_font", font, draw.choice(["copy", "GFS Didot", ""])),
+        lambda: ("edit_glyphs", font, {draw.choice(["A", "g", "gone"]): glyph}),
+        lambda: ("transform_glyphs", font, glyphs, draw.choice([[(1, 0.2, 0), (0, 1, 9)], [(1, 1)], None])),
+        lambda: ("reset_glyphs", font, glyphs),
     ]
     return draw.choice(
         [

@@ -7,6 +7,7 @@ import pytest
 from solidtree.model.document.document import Document, Parameter, ParameterSet, Section
 from solidtree.model.document.nodes import KINDS, Broken, Node
 from solidtree.model.document.outlines import Path as Outline
+from solidtree.model.document.project_font import ProjectFont
 from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered, walk
 from solidtree.model.project.assets import default_store
@@ -131,11 +132,29 @@ def format_3() -> Document:
     )
 
 
+def format_4() -> Document:
+    """Format 3, with a font that the project carries and has edited, and the noted version of an installed one."""
+    before = format_3()
+    base = "750778dcaacf206733cf12e99e9ec66f53a6322207fcdcf2d3cdd97d3dc0d9eb"
+    edited = "f860829ab83e170d89cfc8b70d62fe3180ebef4aef356f79491a017115c4afc9"
+    noted = "27d80cbfb7446a627f577b3a3bc519e1cec71d53328cd3873368e9c3b54e0fc1"
+    label = lettering("I", 20, "Bars").named("bars").with_(id="j1")
+    return before.with_(
+        profiles=(*before.profiles, label),
+        fonts=(
+            ProjectFont("Bars", base, 0, edited),
+            ProjectFont("GFS Didot", noted),
+        ),
+        notes="Every kind of node, as format 4 writes it.",
+    )
+
+
 def _children_numbered(root: Node) -> Node:
     return root.with_(children=tuple(child.with_(id=f"{root.id}_{i}") for i, child in enumerate(root.children)))
 
 
-@pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2), ("format_3", format_3)])
+@pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2), ("format_3", format_3),
+                                            ("format_4", format_4)])  # fmt: skip
 def test_every_format_opens_as_it_was_made(name, made):
     assert same_document(open_document(PROJECTS / f"{name}.solidtree"), made())
 

@@ -149,8 +149,9 @@ class NodeForm(Form):
             nonlocal shown
             if not self.session.previewing and (node.symbolic or node.shape_digest != shown):
                 shown = node.shape_digest
-                for label, words in zip((length, area), measured_words(node, values), strict=True):
-                    label.setText(words)
+                words = measured_words(node, values, self.session.view.fonts)
+                length.setText(words[0])
+                area.setText(words[1])
 
         self.rows.append(refresh)
 

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from ...model.document.errors import Refusal
 from ...model.document.fields import FieldSpec
 from ...model.document.nodes import Node, resolve_fields
+from ...model.document.project_font import ProjectFont, set_in
 from ..status import figure
 
 MOST_POINTS = 2000
@@ -36,7 +38,7 @@ def _numbers(values: tuple[Any, ...]) -> str:
     return f"{len(values)}{reach}"
 
 
-def measured_words(node: Node, values: dict[str, float]) -> tuple[str, str]:
+def measured_words(node: Node, values: dict[str, float], fonts: Iterable[ProjectFont]) -> tuple[str, str]:
     """Length and area of an outline in its own axes; a dash for what it has none of, or takes long to measure."""
     none = figure(None)
     if len(getattr(node, "points", ())) > MOST_POINTS:
@@ -44,7 +46,7 @@ def measured_words(node: Node, values: dict[str, float]) -> tuple[str, str]:
     from ...model.solid.outlines.profiles import figures_of, profile_of
 
     try:
-        path, _ = profile_of(resolve_fields(node, values, ()).placed())
+        path, _ = profile_of(set_in(resolve_fields(node, values, ()), fonts).placed())
     except Refusal:
         path = None
     if path is None:

@@ -13,6 +13,7 @@ from .arithmetic import RESERVED, normal_name
 from .errors import Refusal
 from .expression import Expression, Number, number, resolved, vector
 from .nodes import Node
+from .project_font import ProjectFont, font_key
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +142,7 @@ class Document:
 
     `solids` are the roots of the CSG trees, `profiles` the outlines that stand by themselves, `definitions` the
     sub-trees that instances refer to by their root's id. `sets` are saved values of the parameters, `sections` the
-    planes that open the picture; the names of either are all different.
+    planes that open the picture, `fonts` those that names of fonts stand for; the names of either are all different.
     """
 
     solids: tuple[Node, ...] = ()
@@ -150,6 +151,7 @@ class Document:
     parameters: tuple[Parameter, ...] = ()
     sets: tuple[ParameterSet, ...] = ()
     sections: tuple[Section, ...] = ()
+    fonts: tuple[ProjectFont, ...] = ()
     notes: str = ""
 
     def __post_init__(self) -> None:
@@ -159,6 +161,8 @@ class Document:
                 if member.name in names:
                     raise Refusal(f"there are two {what} called {member.name}")
                 names.add(member.name)
+        if len({font_key(font.name) for font in self.fonts}) < len(self.fonts):
+            raise Refusal("there are two fonts of one name")
 
     def __repr__(self) -> str:
         outlines = f", {len(self.profiles)} outlines" if self.profiles else ""

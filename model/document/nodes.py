@@ -48,13 +48,15 @@ class Node:
     shape_digest: bytes = dataclasses.field(init=False)
     """The same without the node's own placement."""
     symbolic: bool = dataclasses.field(init=False)
-    """Whether an expression or an instance stands in it or below."""
+    """Whether an expression stands in it or below, or a node that refers to other parts of the document."""
 
     kind: ClassVar[str] = "Node"
     title: ClassVar[str] = "Node"
     """What users call the kind."""
     operands: ClassVar[tuple[int, int | None]] = (0, 0)
     """How few and how many children the kind takes; None: any number."""
+    refers: ClassVar[bool] = False
+    """Whether what it is hangs on other parts of the document: a definition, the project's fonts."""
     SPECS: ClassVar[tuple[FieldSpec, ...]] = ()
 
     def __init_subclass__(cls, **more: Any) -> None:
@@ -95,7 +97,7 @@ class Node:
         state = blake2b(repr((self.kind, values)).encode(), digest_size=16)
         for numbers in packed:
             state.update(numbers)
-        depends = symbolic(tuple(values)) or isinstance(self, Instance)
+        depends = symbolic(tuple(values)) or self.refers
         for child in children:
             if not isinstance(child, Node):
                 raise Refusal(f"{self.title} takes solids, not {child!r:.60}")
@@ -302,6 +304,7 @@ class Instance(Node):
 
     title: ClassVar[str] = "Instance"
     operands: ClassVar[tuple[int, int | None]] = (0, 1)
+    refers: ClassVar[bool] = True
     definition: str = fields.text("", "Definition", "The id of the definition's root")
 
 

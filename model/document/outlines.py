@@ -103,6 +103,7 @@ class Lettering(Node):
     """
 
     title: ClassVar[str] = "Lettering"
+    refers: ClassVar[bool] = True
     text: str = fields.text("Text", "Text", "Several lines if you like", "lines")
     font: str = fields.text("DejaVu Sans", "Font", "Family and style, as “DejaVu Sans Bold”", "font")
     asset: str = fields.text("", "Font file", "SHA-256 of a font file that the project carries")

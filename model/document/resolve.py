@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Mapping
 from dataclasses import dataclass
 
 from .document import Document, parameter_values
 from .errors import Refusal
 from .nodes import Broken, Instance, Node, resolve_fields
+from .project_font import ProjectFont, set_in
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,11 +38,14 @@ class Resolver:
         self._faults: dict[str, str] = {}
         self._made: dict[int, tuple[Node, Node]] = {}
         self._definitions: tuple[Node, ...] = ()
+        self._fonts: tuple[ProjectFont, ...] = ()
 
     def resolve(self, document: Document) -> Resolved:
         values, faults = parameter_values(document.parameters)
         same = (values, faults) == (self._values, self._faults) and document.definitions is self._definitions
+        same = same and document.fonts == self._fonts
         self._values, self._faults, self._definitions = values, faults, document.definitions
+        self._fonts = document.fonts
         definitions = {node.id: node for node in document.definitions}
         before, self._made = self._made, {}
         solids, profiles = (
@@ -90,7 +95,7 @@ class Resolver:
                 children = (made[id(definition)][1],)
             else:
                 children = tuple(made[id(child)][1] for child in node.children)
-            new = _resolved(node, values, faults, children, definition is None)
+            new = set_in(_resolved(node, values, faults, children, definition is None), self._fonts)
             made[key] = old if old is not None and _alike(old[1], new) else (node, new)
         return made[id(root)][1]
 
@@ -101,6 +106,9 @@ def _resolved(
     if isinstance(node, Instance) and plain:
         return _broken(node, f"the definition {node.definition or '?'} is not in the document")
     try:
+        same = not isinstance(node, Instance) and all(map(operator.is_, children, node.children))
+        if same and not node.expressions():
+            return node
         return resolve_fields(node, values, children)
     except Refusal as refusal:
         asked = [name for expression in node.expressions() for name in sorted(expression.names())]

@@ -14,6 +14,7 @@ from .errors import Refusal
 from .expression import Expression, Number
 from .nodes import KINDS, Broken, Instance, Node, field_specs
 from .placement import STEPS, Placement
+from .project_font import ProjectFont
 from .tree import FAMILIES, MAX_NODES, walk
 
 MAX_ID = 100
@@ -45,6 +46,9 @@ def to_table(document: Document) -> dict[str, Any]:
     table["sections"] = [
         {"name": one.name, "point": _plain(one.point), "normal": _plain(one.normal), "active": one.active}
         for one in document.sections
+    ]
+    table["fonts"] = [
+        {"name": one.name, "base": one.base, "face": one.face, "asset": one.asset} for one in document.fonts
     ]
     table["notes"] = document.notes
     return table
@@ -116,6 +120,7 @@ def from_table(table: Mapping[str, Any], reuse: Reuse | None = None) -> Document
         parameters=tuple(_parameter(row) for row in parameters),
         sets=tuple(_set(row) for row in _expect(table.get("sets", []), list, "“sets”")),
         sections=tuple(_section(row) for row in _expect(table.get("sections", []), list, "“sections”")),
+        fonts=tuple(_font(row) for row in _expect(table.get("fonts", []), list, "“fonts”")),
         notes=_expect(table.get("notes", ""), str, "“notes”"),
     )
 
@@ -231,7 +236,11 @@ def _section(row: Any) -> Section:
     return Section(row["name"], _value(row["point"]), _value(row["normal"]), row["active"])
 
 
-def _fields(row: Any, what: str, kind: type[ParameterSet | Section]) -> dict[str, Any]:
+def _font(row: Any) -> ProjectFont:
+    return ProjectFont(**_fields(row, "a font", ProjectFont))
+
+
+def _fields(row: Any, what: str, kind: type[ParameterSet | Section | ProjectFont]) -> dict[str, Any]:
     row = _expect(row, dict, what)
     names = {field.name for field in dataclasses.fields(kind)}
     wrong = sorted(names ^ set(row))
@@ -269,4 +278,10 @@ def _anonymous(document: Document) -> Any:
         if "definition" in row:
             row["definition"] = order.get(row["definition"], row["definition"])
         rows[order[node_id]] = row
-    return {**table, "nodes": rows, **{family: [order[i] for i in table[family]] for family in FAMILIES}}
+    fonts = [row for row in table["fonts"] if row["asset"]]  # which version of an installed font is no part of it
+    return {
+        **table,
+        "nodes": rows,
+        "fonts": fonts,
+        **{family: [order[i] for i in table[family]] for family in FAMILIES},
+    }

@@ -96,8 +96,11 @@ class Face(ABC):
         return name_of(self.family, self.style)
 
     @abstractmethod
-    def outline(self, glyph: str, location: Location = DEFAULT) -> Path:
-        """Raises Refusal for a glyph that the font lacks, or that is broken."""
+    def outline(self, glyph: str, location: Location = DEFAULT, instead: Mapping[str, Path] | None = None) -> Path:
+        """`instead` has outlines that take the place of those of parts that the glyph is put together from.
+
+        Raises Refusal for a glyph that the font lacks, or that is broken.
+        """
 
     @abstractmethod
     def advance(self, glyph: str, location: Location = DEFAULT) -> float:
@@ -106,3 +109,11 @@ class Face(ABC):
     @abstractmethod
     def shape(self, run: Run, location: Location = DEFAULT) -> list[Shaped]:
         """The glyphs of a run. Raises Refusal."""
+
+    def parts(self, glyph: str) -> frozenset[str]:
+        """The other glyphs that this one is put together from, and theirs."""
+        return frozenset()
+
+    def source(self, glyph: str) -> Face:
+        """The face that draws the glyph: itself, but for an edited font whose file has the glyph as it is."""
+        return self

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 from ..document.errors import Refusal
 from ..document.outlines import Lettering
 from ..path.path import Contour, Path
+from ..project.assets import default_store
 from .face import Face
 from .layout import Layout, Style, lay_out
-from .library import face_of, fallbacks
+from .library import face_of, fallbacks, version_of
 from .runs import missing_in
 
 LONGEST = 20_000
@@ -59,7 +60,8 @@ def _placed(node: Lettering) -> Iterator[tuple[Drawn, tuple[float, float]]]:
     weight, own = float(node.weight), tuple(sorted(location.items()))  # type: ignore[arg-type]
     for one in layout.glyphs:
         (across, shear, x), (_, up, y) = one.matrix.tolist()
-        yield (faces[one.face], one.glyph, () if one.face else own, (across, shear, up), weight), (x, y)
+        source = faces[one.face].source(one.glyph)  # what is not edited is drawn once for all edits
+        yield (source, one.glyph, () if one.face else own, (across, shear, up), weight), (x, y)
 
 
 # What has been drawn before is placed alone: of a text that is edited, the letters that were there.
@@ -92,8 +94,8 @@ def remarks_on(node: Lettering) -> list[str]:
         faces = _chain(node)
     except Refusal:
         return []
-    remarks = []
     own, text = faces[0], node.text
+    remarks = _on_version(node)
     lost = missing_in(text, faces)
     lent: dict[int, list[int]] = {}
     for code in missing_in(text, faces[:1]):
@@ -105,6 +107,16 @@ def remarks_on(node: Lettering) -> list[str]:
     if lost:
         remarks.append(f"no font of the chain has {_listed(lost)}: shown as a box; choose a font that has it")
     return remarks
+
+
+def _on_version(node: Lettering) -> list[str]:
+    """Of an installed font, which the project does not carry: whether it is the one that the project was made with."""
+    if not node.asset or default_store().has(node.asset):
+        return []
+    here = version_of(node.font)
+    if here is None or here[0] == node.asset:
+        return []
+    return [f"{node.font} is not the version here that the project was made with: letters may look and run otherwise"]
 
 
 def settings_of(text: str, what: str) -> list[tuple[str, float | None]]:

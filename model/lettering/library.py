@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import os
 import re
 import sys
@@ -13,9 +14,10 @@ from pathlib import Path
 
 from ..document.errors import Refusal
 from ..project.assets import default_store
+from .edited_face import MARK, EditedFace, glyphs_from_bytes
 from .face import PLAIN, Face, name_of
 from .failing import failing
-from .opening import SFNT, face_count, font_bytes, open_face, read_font
+from .opening import SFNT, check_embedding, face_count, font_bytes, open_face, read_font
 from .type1_face import style_of
 
 BUNDLED = ("DejaVuSans.ttf", "GFSDidot.otf")
@@ -83,14 +85,38 @@ def find(name: str) -> FontFile | None:
 
 
 def face_of(name: str, asset: str = "", number: int = 0) -> Face:
-    """A face by its name, or from a font file among the assets by its SHA-256. Raises Refusal."""
-    if asset:
+    """A face by its name, or from a font file among the assets by its SHA-256, if that is there. Raises Refusal."""
+    if asset and default_store().has(asset):
         return _from_asset(asset, number)
     found = find(name)
     if found is None:
         near = _near(name)
         raise Refusal(f"no font “{name:.60}” is installed" + (f"; did you mean “{near}”?" if near else ""))
     return _from_file(found.path, found.number, found.path.stat().st_mtime_ns)
+
+
+def version_of(name: str) -> tuple[str, int] | None:
+    """The SHA-256 of the file that the font of this name is in, and the number of its face; None where it is not
+    installed."""
+    found = find(name)
+    if found is None:
+        return None
+    try:
+        return _digest(found.path, found.path.stat().st_mtime_ns), found.number
+    except OSError:
+        return None
+
+
+def take(name: str) -> tuple[str, int]:
+    """Take the file of an installed font among the assets: its SHA-256 and the number of the face. Raises Refusal,
+    also where its licence forbids it."""
+    found = find(name)
+    if found is None:
+        face_of(name)  # which says so
+        raise Refusal(f"no font “{name:.60}” is installed")
+    data = font_bytes(found.path)
+    check_embedding(data, found.number)
+    return default_store().put(data), found.number
 
 
 def fallbacks() -> list[Face]:
@@ -103,6 +129,7 @@ def keep(path: str | os.PathLike[str], number: int = 0) -> tuple[str, str]:
     try:
         data = font_bytes(path)
         name = open_face(data, number).name
+        check_embedding(data, number)
     except Refusal as refusal:
         raise Refusal(f"{Path(path).name}: {refusal}") from None
     return name, default_store().put(data)
@@ -110,7 +137,19 @@ def keep(path: str | os.PathLike[str], number: int = 0) -> tuple[str, str]:
 
 @lru_cache(maxsize=OPEN)
 def _from_asset(asset: str, number: int) -> Face:
-    return open_face(default_store().read(asset), number)
+    data = default_store().read(asset)
+    if not data.startswith(MARK):
+        return open_face(data, number)
+    base, number, drawn = glyphs_from_bytes(data)
+    plain = _from_asset(base, number)
+    if isinstance(plain, EditedFace):
+        raise Refusal("the edited glyphs of the font are damaged")
+    return EditedFace(plain, drawn)
+
+
+@lru_cache(maxsize=64)
+def _digest(path: Path, changed: int) -> str:
+    return hashlib.sha256(font_bytes(path)).hexdigest()
 
 
 @lru_cache(maxsize=OPEN)

@@ -5,11 +5,13 @@ from __future__ import annotations
 import os
 import struct
 import zlib
+from io import BytesIO
 from pathlib import Path as FilePath
 
 from ..document.errors import Refusal
 from ..project.disk import reason_of
 from .face import Face
+from .failing import failing
 
 LARGEST = 64 * 2**20
 """Bytes of a font file that is opened, and of its tables together when they are packed."""
@@ -58,6 +60,24 @@ def open_face(data: bytes, number: int = 0) -> Face:
 
         return Type1Face(data)
     raise Refusal("not a font: TTF, OTF, TTC, WOFF, PFA and PFB files are")
+
+
+RESTRICTED = 0x0002
+"""Of a font's embedding bits (fsType of OS/2): it may not go with documents at all."""
+
+
+def check_embedding(data: bytes, number: int = 0) -> None:
+    """Raises Refusal for a font whose licence bits forbid that a project carries it."""
+    if data[:4] not in SFNT:
+        return
+    from fontTools.ttLib import TTFont
+
+    with failing("the font cannot be read"), TTFont(BytesIO(data), fontNumber=number, lazy=True) as font:
+        bits = int(getattr(font["OS/2"], "fsType", 0)) if "OS/2" in font else 0
+    if bits & 0x000F == RESTRICTED:  # a milder bit beside it allows more
+        raise Refusal(
+            "its licence bits forbid that documents carry it: install it on this computer and choose it by its name"
+        )
 
 
 def face_count(data: bytes) -> int:

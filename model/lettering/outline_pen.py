@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -54,3 +55,34 @@ class OutlinePen(BasePen):
         if self._kinds:
             self._contours.append(Contour(np.array(self._points, float), np.array(self._kinds, np.uint8), closed=True))
         self._points, self._kinds = [], []
+
+
+class Overlaid(Mapping[str, Any]):
+    """A font's glyphs, some of which other outlines stand for: for what is put together from them."""
+
+    def __init__(self, glyphs: Mapping[str, Any], outlines: Mapping[str, Path]) -> None:
+        self._glyphs, self._outlines = glyphs, outlines
+
+    def __getitem__(self, name: str) -> Any:
+        return _Outline(self._outlines[name]) if name in self._outlines else self._glyphs[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._glyphs)
+
+    def __len__(self) -> int:
+        return len(self._glyphs)
+
+
+@dataclass(frozen=True, slots=True)
+class _Outline:
+    path: Path
+
+    def draw(self, pen: Any) -> None:
+        for contour in self.path.contours:
+            points = [tuple(point) for point in contour.points.tolist()]
+            pen.moveTo(points[0])
+            at = 1
+            for kind in contour.kinds.tolist():
+                (pen.lineTo, pen.qCurveTo, pen.curveTo)[kind - 1](*points[at : at + kind])
+                at += kind
+            pen.closePath()

@@ -14,7 +14,7 @@ from ..document.errors import Refusal
 from ..path.path import Path
 from .face import DEFAULT, Axis, Face, Location, Metrics, Run, Shaped
 from .failing import failing
-from .outline_pen import OutlinePen
+from .outline_pen import OutlinePen, Overlaid
 
 hb: Any = uharfbuzz  # a compiled module without types
 LOCATIONS = 8
@@ -47,11 +47,11 @@ class SfntFace(Face):
             self.features = _features(self._face)
         self._glyphs: dict[tuple[tuple[str, float], ...], tuple[Mapping[str, Any], Any]] = {}
 
-    def outline(self, glyph: str, location: Location = DEFAULT) -> Path:
+    def outline(self, glyph: str, location: Location = DEFAULT, instead: Mapping[str, Path] | None = None) -> Path:
         glyphs, _ = self._at(location)
         self._known(glyph)
         with failing(f"the outline of glyph “{glyph}” cannot be read"):
-            pen = OutlinePen(glyphs)
+            pen = OutlinePen(Overlaid(glyphs, instead) if instead else glyphs)
             glyphs[glyph].draw(pen)
             return pen.path()
 
@@ -80,6 +80,19 @@ class SfntFace(Face):
             )
             for info, position in zip(buffer.glyph_infos, buffer.glyph_positions, strict=True)
         ]
+
+    def parts(self, glyph: str) -> frozenset[str]:
+        if "glyf" not in self._font:
+            return frozenset()
+        found: set[str] = set()
+        open_ = [glyph]
+        with failing(f"the outline of glyph “{glyph}” cannot be read"):
+            while open_:
+                drawn = self._font["glyf"][open_.pop()]
+                new = {part.glyphName for part in drawn.components} - found if drawn.isComposite() else set()
+                found |= new
+                open_ += new
+        return frozenset(found)
 
     def _known(self, glyph: str) -> None:
         if glyph not in self._font.getReverseGlyphMap():

@@ -42,7 +42,7 @@ class Type1Face(Face):
         self.missing = ".notdef" if ".notdef" in self._glyphs else self.glyph_names[0]
         self.metrics = Metrics(box[3], box[1], 0.0, self._height("x", 0.5), self._height("H", 0.7), slant)
 
-    def outline(self, glyph: str, location: Location = DEFAULT) -> Path:
+    def outline(self, glyph: str, location: Location = DEFAULT, instead: Mapping[str, Path] | None = None) -> Path:
         self._known(glyph, location)
         with failing(f"the outline of glyph “{glyph}” cannot be read"):
             pen = OutlinePen(self._glyphs)

@@ -23,6 +23,7 @@ from ..document.tree import (
     unique_name,
     walk,
 )
+from .fonts import with_fonts_of
 from .parameters import declaring
 
 
@@ -92,7 +93,7 @@ def insert_document(document: Document, other: Document) -> Document:
         sets.append(replace(one, name=unique_name(one.name, [two.name for two in sets])))
     for one in other.sections:
         sections.append(one.with_(name=unique_name(one.name, [two.name for two in sections]), active=False))
-    document = document.with_(sets=tuple(sets), sections=tuple(sections))
+    document, other = with_fonts_of(document.with_(sets=tuple(sets), sections=tuple(sections)), other)
     declaring(document, [node.expressions() for node in walk(*other.roots)])
     roots = numbered(other.roots, next_number(document))
     renamed = {old.id: new.id for old, new in zip(other.roots, roots, strict=True)}

@@ -43,6 +43,7 @@ from .curves.nodes import (
     transform_nodes,
 )  # fmt: skip
 from .curves.outline_areas import combine_outlines, offset_outline, stroke_outline
+from .fonts import carry_font, copy_font, edit_glyphs, release_font, reset_glyphs, transform_glyphs
 from .linking import check_definitions, insert_document, link, unlink
 from .outlining import make_solid
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
@@ -150,6 +151,7 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         set_parameter, rename_parameter, delete_parameter, reorder_parameter, set_parameters,
         save_set, put_sets, apply_set, rename_set, delete_set,
         add_section, set_section, rename_section, delete_section,
+        carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
         bend_segment,
         combine_outlines, offset_outline, stroke_outline,
         convert_to_path, convert_to_bspline, move_nodes, place_nodes, move_handle, set_handle, set_joints, insert_node,

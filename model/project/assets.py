@@ -111,6 +111,19 @@ def use_store(folder: str | os.PathLike[str]) -> AssetStore:
     return _current
 
 
+def references(document: Document) -> dict[str, str]:
+    """The SHA-256 of every asset that the document refers to, and words for what refers to it first."""
+    found: dict[str, str] = {}
+    for node in walk(*document.roots):
+        if isinstance(node, CARRIERS) and node.asset:
+            found.setdefault(node.asset, f"node {node.id} (“{node.label}”)")
+    for font in document.fonts:
+        if font.asset:
+            found.setdefault(font.asset, f"the font “{font.name}”")
+            found.setdefault(font.base, f"the font “{font.name}”")
+    return found
+
+
 def assets_of(document: Document) -> set[str]:
     """The SHA-256 of every asset that the document refers to."""
-    return {node.asset for node in walk(*document.roots) if isinstance(node, CARRIERS) and node.asset}
+    return set(references(document))

@@ -14,16 +14,19 @@ from typing import Any, BinaryIO
 
 from ..document.document import Document
 from ..document.errors import Refusal
+from ..document.outlines import Lettering
+from ..document.project_font import ProjectFont, font_named
 from ..document.table import from_table, to_table
 from ..document.tree import walk
 from .archive import allowance, member, members_of, open_archive, unpacked
-from .assets import CARRIERS, AssetStore, assets_of, default_store, is_sha
+from .assets import AssetStore, default_store, is_sha, references
 from .disk import one_line, reason_of, replace_file
 
-FORMAT = 3
+FORMAT = 4
 MIGRATIONS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
     1: lambda table: table,  # 2 added sets of parameters and sections, which may be missing
     2: lambda table: table,  # 3 added curves, what is made of them, and outlines that stand by themselves
+    3: lambda table: table,  # 4 added the project's fonts
 }
 """For each older format the function that makes its table one of the next format."""
 
@@ -41,28 +44,42 @@ def save_project(
 ) -> None:
     """Writes the document and its assets to `path`, wholly or not at all. Equal documents make equal bytes.
 
+    Installed fonts are noted with their version, by which another computer tells whether it has the same.
     `thumbnail` is a PNG file. Raises Refusal; the file that was there is then untouched.
     """
     store = store or default_store()
-    text = json.dumps(
-        {**to_table(document), "format": FORMAT}, sort_keys=True, indent=2, ensure_ascii=False, allow_nan=False
-    )
-    names = {node.asset: node.label for node in walk(*document.roots) if isinstance(node, CARRIERS)}
+    table = {**to_table(with_versions(document)), "format": FORMAT}
+    text = json.dumps(table, sort_keys=True, indent=2, ensure_ascii=False, allow_nan=False)
+    assets = references(document)
 
     def write(stream: BinaryIO) -> None:
         with zipfile.ZipFile(stream, "w", allowZip64=True) as archive:
             # Half of a surrogate pair, as broken input methods leave it in names, has no UTF-8.
             archive.writestr(member(DOCUMENT, zipfile.ZIP_DEFLATED), text.encode("utf-8", "replace") + b"\n")
-            for sha in sorted(assets_of(document)):
+            for sha in sorted(assets):
                 try:
                     data = store.read(sha)
                 except Refusal as refusal:
-                    raise Refusal(f"cannot be written: “{names[sha]}”: {refusal}") from None
+                    raise Refusal(f"cannot be written: {assets[sha]}: {refusal}") from None
                 archive.writestr(member(ASSETS + sha), data)
             if thumbnail is not None:
                 archive.writestr(member(THUMBNAIL), thumbnail)
 
     replace_file(path, write)
+
+
+def with_versions(document: Document) -> Document:
+    """With the version of each installed font that lettering names, where none is noted yet."""
+    names = {node.font for node in walk(*document.roots) if isinstance(node, Lettering) and not node.asset}
+    new = []
+    for name in sorted(names):
+        if font_named((*document.fonts, *new), name) is None:
+            from ..lettering.library import version_of
+
+            found = version_of(name)
+            if found is not None:
+                new.append(ProjectFont(name, *found))
+    return document.with_(fonts=(*document.fonts, *new)) if new else document
 
 
 def open_project(path: str | os.PathLike[str], store: AssetStore | None = None) -> Document:
@@ -86,32 +103,27 @@ def _open(stream: BinaryIO, store: AssetStore | None) -> Document:
             raise Refusal(f"is no Solidtree project: it holds no {DOCUMENT}")
         data = b"".join(unpacked(archive, members[DOCUMENT], min(MAX_DOCUMENT, most)))
         document = from_json(data)
-        shas = assets_of(document)
-        if shas:
-            _keep_assets(archive, members, document, store or default_store(), min(MAX_ASSETS, most))
+        _keep_assets(archive, members, references(document), store or default_store(), min(MAX_ASSETS, most))
     return document
 
 
 def _keep_assets(
-    archive: zipfile.ZipFile, members: dict[str, zipfile.ZipInfo], document: Document, store: AssetStore, most: int
+    archive: zipfile.ZipFile, members: dict[str, zipfile.ZipInfo], wanted: dict[str, str], store: AssetStore, most: int
 ) -> None:
     left = most
-    for node in walk(*document.roots):
-        if not isinstance(node, CARRIERS) or not node.asset:
-            continue
-        what = f"node {node.id} (“{node.label}”)"
-        if not is_sha(node.asset):
-            raise Refusal(f"{what}: {node.asset!r:.60} names no asset; an asset's name is 64 hexadecimal digits")
-        info = members.pop(ASSETS + node.asset, None)
+    for sha, what in wanted.items():
+        if not is_sha(sha):
+            raise Refusal(f"{what}: {sha!r:.60} names no asset; an asset's name is 64 hexadecimal digits")
+        info = members.pop(ASSETS + sha, None)
         if info is None:
-            if store.has(node.asset):  # kept already, for another node or by another file
+            if store.has(sha):  # kept already, by another file
                 continue
-            raise Refusal(f"{what}: its file {ASSETS}{node.asset[:12]}… is missing from the file")
+            raise Refusal(f"{what}: its file {ASSETS}{sha[:12]}… is missing from the file")
         try:
-            store.put_chunks(unpacked(archive, info, left), node.asset)
+            store.put_chunks(unpacked(archive, info, left), sha)
         except Refusal as refusal:
             raise Refusal(f"{what}: {refusal}") from None
-        left -= store.path(node.asset).stat().st_size
+        left -= store.path(sha).stat().st_size
 
 
 def from_json(data: bytes) -> Document:

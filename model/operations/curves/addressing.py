@@ -14,6 +14,7 @@ from ...document.errors import Refusal
 from ...document.expression import Expression, symbolic, vector
 from ...document.nodes import Node, resolve_fields
 from ...document.outlines import Bezier, BSpline, Path, Polygon, is_outline
+from ...document.project_font import set_in
 from ...document.tree import change, find, trail
 from ..fitting import root_name
 
@@ -56,7 +57,7 @@ def plain_values(document: Document, node: Any) -> Any:
     if not node.symbolic:
         return node
     values, _ = parameter_values(document.parameters)
-    return named(node, lambda: resolve_fields(node, values, ()))
+    return set_in(named(node, lambda: resolve_fields(node, values, ())), document.fonts)
 
 
 def _without_nodes(document: Document, node: Node) -> str:
