@@ -47,6 +47,7 @@ from .partition.panel import BspPanel
 from .settings import LAYOUT_VERSION, Settings
 from .status import StatusBar, shown_solids
 from .theme import Theme
+from .tools.engrave_tool import EngraveTool
 from .tools.handles import Handles
 from .tools.measure import MeasureTool
 from .tools.place_on_face import PlaceOnFace
@@ -65,6 +66,7 @@ from .wiring import connect
 
 if TYPE_CHECKING:
     from ..model.worker.shown import Shown
+    from .lettering.font_window import FontWindow
 
 UNSEEN = 500  # milliseconds that the start waits for the window to appear
 
@@ -104,6 +106,8 @@ class MainWindow(QMainWindow):
         self.viewport.add_tool(self.edit_tool)
         self.place_on_face = PlaceOnFace(self.session, self.viewport, lambda i: self.evaluation.parts.get(i), self)
         self.viewport.add_tool(self.place_on_face)
+        self.engrave = EngraveTool(self.session, self.viewport, self)
+        self.viewport.add_tool(self.engrave)
         self.measure = MeasureTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.measure)
         self.sight = SightTool(self.session, self.viewport, self.hidden_surfaces, self)
@@ -282,6 +286,12 @@ class MainWindow(QMainWindow):
         return Palette(self)
 
     @cached_property
+    def font_window(self) -> FontWindow:
+        from .lettering.font_window import FontWindow
+
+        return FontWindow(self)
+
+    @cached_property
     def space_bar(self) -> SpaceBar:
         return SpaceBar(self)
 
@@ -332,6 +342,8 @@ class MainWindow(QMainWindow):
             return
         self._closing = True
         self.settings.keep_layout(self.saveGeometry(), self.saveState(LAYOUT_VERSION))
+        if "font_window" in self.__dict__:
+            self.font_window.end()
         self._unlisten()
         self.files.background.close()
         self.hidden_surfaces.close()

@@ -125,7 +125,7 @@ def _editing(window: MainWindow) -> None:
 def _drawing(window: MainWindow) -> None:
     """One tool has the clicks; the handles give way to it."""
     draw, face = window.draw, window.face_plane
-    for tool in (draw, face):
+    for tool in (draw, face, window.engrave):
         tool.said.connect(window.status.set_hint)
         tool.began.connect(lambda: window.handles.set_hidden(True))
         tool.ended.connect(lambda: window.handles.set_hidden(False))
@@ -133,7 +133,10 @@ def _drawing(window: MainWindow) -> None:
         window.measure.began.connect(tool.end)
         window.sight.began.connect(tool.end)
         window.files.opened.connect(tool.end)
+    draw.began.connect(window.engrave.end)
+    face.began.connect(window.engrave.end)
     draw.refused.connect(window.status.say)
+    window.engrave.refused.connect(window.status.say)
     draw.began.connect(window.follow_empty)
     draw.ended.connect(window.follow_empty)
     face.taken.connect(lambda: draw.start(face.resumed) if face.resumed else None)

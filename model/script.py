@@ -10,11 +10,13 @@ from __future__ import annotations
 
 from .document.document import Document
 from .document.errors import Refusal
-from .scripting import documents, hidden_surfaces, joining, shapes, sight
+from .scripting import documents, fonts, hidden_surfaces, joining, letters, shapes, sight
 from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
+from .scripting.fonts import *  # noqa: F403
 from .scripting.hidden_surfaces import *  # noqa: F403
 from .scripting.joining import *  # noqa: F403
+from .scripting.letters import *  # noqa: F403
 from .scripting.outlines import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
@@ -22,7 +24,9 @@ from .scripting.sight import *  # noqa: F403
 __all__ = ["Document", "Refusal"]
 __all__ += shapes.__all__
 __all__ += flat.__all__
+__all__ += letters.__all__
 __all__ += joining.__all__
 __all__ += documents.__all__
+__all__ += fonts.__all__
 __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__

@@ -37,6 +37,8 @@ def random_leaf(draw):
              lambda: script.bspline([(0, 0), (9, number), (9, 9), (0, 9)], closed=draw.random() < 0.7),
              lambda: script.sweep(script.circle(number), script.path([("move", (0, 0, 0)), ("line", (0, 1, 9))])),
              lambda: script.lettering(draw.choice(["Ag", "", "a\nש"]), number),
+             lambda: script.text_on_path(script.lettering("Ag"), script.bezier([(0, 0), (number, 9), (20, 0)]), number),
+             lambda: script.stencil(script.lettering("A8"), number),
              lambda: script.loft(script.rectangle(), script.circle(number).at(0, 0, 9)),
              lambda: script.pipe(script.bezier([(0, 0), (9, 9), (20, 0)]), number),
              lambda: script.instance(f"n{draw.randrange(40)}")]  # fmt: skip
@@ -135,6 +137,8 @@ def random_step(draw, document):
         lambda: ("reorder", many(), draw.choice([-2, -1, 1, 5])),
         lambda: ("promote", one()),
         *(lambda: ("make_solid", draw.choice(["extrude", "revolve", "sweep", "loft", "pipe"]), some_outlines()),) * 3,
+        lambda: ("set_text_on_path", some_outlines()),
+        lambda: ("make_stencils", some_outlines()),
         lambda: ("make_solid", draw.choice(["extrude", "pipe", "box"]), many(), {"tolerance": number}),
         lambda: (
             "bend_segment",
@@ -158,6 +162,13 @@ def random_step(draw, document):
         lambda: ("set_section", label, {"active": draw.choice([True, False, 1])}),
         lambda: ("rename_section", label, draw.choice(["a", "b", ""])),
         lambda: ("delete_section", label),
+        lambda: (
+            "engrave",
+            draw.choice(flats or ids),
+            one(),
+            *([step()] if draw.random() < 0.5 else []),
+            {"depth": number, "raised": draw.choice([True, False]), "radius": draw.choice([None, 9])},
+        ),
         lambda: (draw.choice(["carry_font", "release_font"]), font),
         lambda: ("copy_font", font, draw.choice(["copy", "GFS Didot", ""])),
         lambda: ("edit_glyphs", font, {draw.choice(["A", "g", "gone"]): glyph}),
@@ -196,7 +207,7 @@ def random_step(draw, document):
 def call(step):
     """Arguments and keywords of a drawn step; a dictionary that comes last may stand for keywords."""
     name, *arguments = step
-    if name in ("set_fields", "set_section", "make_solid") and isinstance(arguments[-1], dict):
+    if name in ("set_fields", "set_section", "make_solid", "engrave") and isinstance(arguments[-1], dict):
         return name, arguments[:-1], arguments[-1]
     return name, arguments, {}
 

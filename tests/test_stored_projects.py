@@ -41,7 +41,9 @@ from solidtree.model.script import (
     revolve,
     save,
     sphere,
+    stencil,
     sweep,
+    text_on_path,
     torus,
     union,
     wrap,
@@ -133,14 +135,23 @@ def format_3() -> Document:
 
 
 def format_4() -> Document:
-    """Format 3, with a font that the project carries and has edited, and the noted version of an installed one."""
+    """Format 3, with a font that the project carries and has edited, the noted version of an installed one, and what
+    came for lettering."""
     before = format_3()
     base = "750778dcaacf206733cf12e99e9ec66f53a6322207fcdcf2d3cdd97d3dc0d9eb"
     edited = "f860829ab83e170d89cfc8b70d62fe3180ebef4aef356f79491a017115c4afc9"
     noted = "27d80cbfb7446a627f577b3a3bc519e1cec71d53328cd3873368e9c3b54e0fc1"
-    label = lettering("I", 20, "Bars").named("bars").with_(id="j1")
+    rim = lettering("Rim", 6, "GFS Didot", alignment="centre")
+    made = (
+        lettering("I", 20, "Bars").named("bars"),
+        text_on_path(rim, circle(20), "depth", shift=1, flip=True).named("rim"),
+        stencil(lettering("AB8", 12, "GFS Didot"), 0.8, 60, 2).named("stencil"),
+    )
+    made = tuple(_children_numbered(node.with_(id=f"j{i}")) for i, node in enumerate(made))
+    raised = extrude(rectangle(9, 9), 3, bevel=1).named("raised").with_(id="j9")
     return before.with_(
-        profiles=(*before.profiles, label),
+        solids=(*before.solids, _children_numbered(raised)),
+        profiles=(*before.profiles, *made),
         fonts=(
             ProjectFont("Bars", base, 0, edited),
             ProjectFont("GFS Didot", noted),

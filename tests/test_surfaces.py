@@ -100,6 +100,14 @@ def test_planes_point_out_of_the_result():
         (cone(5, 5, 6), CylinderSurface((0, 0, 0), (0, 0, 1), 5)),
         (extrude(circle(3).at(5, 6), 9), CylinderSurface((5, 6, 0), (0, 0, 1), 3)),
         (extrude(circle(6), 3, top_scale=0.5), ConeSurface((0, 0, 6), (0, 0, -1), 45)),
+        (
+            extrude(circle(6).at(1, 2), 3, taper=45, below=1, centred=True) & halfspace((0, 0, 1), (0, 0, -0.9)),
+            ConeSurface((1, 2, 5), (0, 0, -1), 45),
+        ),
+        (
+            extrude(circle(6).at(1, 2), 3, bevel=1) & halfspace((0, 0, 1), (0, 0, 2.1)),
+            ConeSurface((1, 2, 8), (0, 0, -1), 45),
+        ),
         (revolve(circle(4).at(15, 5)), TorusSurface((0, 0, 5), (0, 0, 1), 15, 4)),
         (revolve(polygon([(0, 0), (6, 0), (0, 6)])), ConeSurface((0, 0, 6), (0, 0, -1), 45)),
         (revolve(rectangle(4, 5)), CylinderSurface((0, 0, 0), (0, 0, 1), 4)),

@@ -7,7 +7,7 @@ import pytest
 from manifold3d import CrossSection, FillRule, JoinType
 
 from solidtree.model.document.errors import Refusal
-from solidtree.model.script import circle, extrude, measure, path, polygon, rectangle
+from solidtree.model.script import circle, extrude, lettering, measure, path, polygon, rectangle
 from solidtree.model.solid.outlines.taper import tapered
 
 
@@ -100,7 +100,53 @@ def test_twist_and_scale_go_on_below_the_outline():
 
 
 @pytest.mark.parametrize(
-    "more, words", [({"taper": 89.5}, "between -89"), ({"taper": 5, "twist": 3}, "neither a twist")]
+    "more, volume",
+    [
+        ({"bevel": 2}, 200 * 3 + (200 + 96 + 4 * 18 * 8) / 6 * 2),  # a prism and a prismatoid
+        ({"bevel": 5}, 5 * 10 * (2 * 20 + 10) / 6),  # a roof from the outline on
+        ({"bevel": 2, "below": 3}, 200 * 6 + (200 + 96 + 4 * 18 * 8) / 6 * 2),
+        ({"bevel": 5, "height": 9}, 200 * 4 + 5 * 10 * (2 * 20 + 10) / 6),
+    ],
+)
+def test_a_bevel_stands_on_upright_walls(more, volume):
+    solid = extrude(rectangle(20, 10), **{"height": 5, **more})
+    assert measure(solid).volume == pytest.approx(volume, rel=1e-9)
+
+
+def test_a_bevelled_circle_converges_to_cylinder_and_frustum():
+    exact = pi * 100 * 3 + pi * 2 / 3 * (100 + 64 + 80)
+    for tolerance in (0.1, 0.01, 0.001):
+        solid = extrude(circle(10), 5, bevel=2, centred=True)
+        found = measure(solid, tolerance)
+        assert 0 < exact - found.volume < 20 * pi * 5 * tolerance
+        np.testing.assert_allclose(np.array(found.bounds)[:, 2], (-2.5, 2.5))
+
+
+@pytest.mark.parametrize("bevel", [0.2, 0.7, 2])
+def test_bevelled_letters_are_closed_and_keep_their_holes(bevel):
+    """Also where the strokes are narrower than the bevel, and end in a ridge."""
+    plain, bevelled = (measure(extrude(lettering("ABdo8", 10), 3, bevel=b)) for b in (0, bevel))
+    assert bevelled.closed and bevelled.components == plain.components == 5
+    assert bevelled.genus == plain.genus == 1 + 2 + 1 + 1 + 2
+    np.testing.assert_allclose(np.array(bevelled.bounds)[:, :2], np.array(plain.bounds)[:, :2], atol=1e-6)
+    assert 0 < bevelled.volume < plain.volume
+
+
+def test_letters_narrower_than_the_bevel_are_lower_than_the_height():
+    assert measure(extrude(lettering("l", 10), 3, bevel=2)).bounds[1][2] < 2
+    assert measure(extrude(lettering("l", 10), 3, bevel=0.1)).bounds[1][2] == pytest.approx(3)
+
+
+@pytest.mark.parametrize(
+    "more, words",
+    [
+        ({"taper": 89.5}, "between -89"),
+        ({"taper": 5, "twist": 3}, "neither a twist"),
+        ({"bevel": 1, "twist": 3}, "no taper, twist or top scale"),
+        ({"bevel": 1, "taper": 3}, "no taper, twist or top scale"),
+        ({"bevel": 2.5}, "larger than the height, 2 mm"),
+        ({"bevel": -1}, "bevel must be at least 0"),
+    ],
 )
 def test_what_cannot_be_is_told(more, words):
     with pytest.raises(Refusal, match=words):

@@ -89,6 +89,7 @@ def _place(window: MainWindow) -> None:
     window.sight.end()
     window.draw.end()
     window.face_plane.end()
+    window.engrave.end()
     window.place_on_face.start()
 
 

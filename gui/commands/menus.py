@@ -28,11 +28,12 @@ ORDER = {
     "linear_array polar_array mirror",
     "Curve": "draw_pen draw_freehand draw_rectangle draw_ellipse draw_polygon draw_star draw_arc draw_control_points "
     "draw_through_points - Curve/Work_plane look_at_plane - extrude revolve sweep loft pipe wrap - "
+    "text_on_path stencil - engrave emboss - "
     "Curve/Nodes Curve/Nodes_become Curve/Segments_become Curve/Joints Curve/Align_nodes transform_box - "
     "unite_outlines subtract_outlines intersect_outlines "
     "exclude_outlines - offset_outline stroke_outline "
     "convert_to_path convert_to_bspline - elevate_degree reduce_degree refine_knots - "
-    "reverse_contours split_outline - mirror_outline_x mirror_outline_y - "
+    "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections - tool_menu",

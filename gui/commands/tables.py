@@ -11,6 +11,8 @@ from .arrange import ARRANGE_COMMANDS
 from .curves import CURVE_COMMANDS
 from .draw_tools import DRAW_COMMANDS
 from .drawing import DRAWING_COMMANDS
+from .engraving import ENGRAVING_COMMANDS
+from .fonts import FONT_COMMANDS
 from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
@@ -36,6 +38,8 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (TREE_COMMANDS, window.session),
         (CURVE_COMMANDS, window),
         (NODE_COMMANDS, window),
+        (FONT_COMMANDS, window),
+        (ENGRAVING_COMMANDS, window),
         (EDIT_COMMANDS, window),
         (VIEW_COMMANDS, window),
         (HIDDEN_SURFACE_COMMANDS, window),

@@ -19,7 +19,8 @@ from .number_field import LENGTH, STEPS, Steps
 from .outline_words import field_words, measured_words
 from .property_edit import field_edit, position_edit, step_edit, with_step
 from .text_line import TextLine
-from .text_rows import text_row
+from .words.lettering_rows import ROWS, slant_slider
+from .words.text_rows import text_row
 
 STEP_KINDS: tuple[tuple[str, str, Step], ...] = (
     ("Turn", "Degrees about x, then y, then z", Turn((0.0, 0.0, 0.0))),
@@ -47,8 +48,14 @@ class NodeForm(Form):
         for spec in specs:
             silent = spec.type in ("letters", "splines")  # they say nothing to a reader; the points' row sums them up
             by_name = isinstance(node, Lettering) and not node.asset and spec.name in ("asset", "face")
-            if not (silent or by_name):
-                self._field(node.id, spec)
+            if silent or by_name:
+                continue
+            if isinstance(node, Lettering) and spec.name in ROWS:
+                ROWS[spec.name](self, node.id, spec)
+                continue
+            self._field(node.id, spec)
+            if isinstance(node, Lettering) and spec.name == "slant":
+                slant_slider(self, node.id, spec)
         if isinstance(node, OUTLINES):
             self._measures()
         self._placement(node)

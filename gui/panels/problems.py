@@ -53,7 +53,7 @@ class Problems(QWidget):
     def _fill(self) -> None:
         self.list.clear()
         for problem in sorted(self._problems, key=lambda problem: not problem.error):
-            named = not problem.name or f"“{problem.name}”" in problem.message
+            named = f"“{problem.name}”" in problem.message or problem.message.startswith(problem.name)
             text = sentence(problem.message) if named else f"“{problem.name}”: {problem.message}"
             item = QListWidgetItem(severity_icon(problem.error), text)
             item.setData(NODE, problem.node_id)

@@ -63,7 +63,8 @@ class Properties(QScrollArea):
             node = find(state.document, state.selection[0])
         except Refusal:
             return ()
-        return node.id, type(node), tuple(type(step) for step in extra_steps(node))
+        by_file = bool(getattr(node, "asset", ""))
+        return node.id, type(node), by_file, tuple(type(step) for step in extra_steps(node))
 
     def _refresh(self) -> None:
         if self._form is not None and self._session.selection:

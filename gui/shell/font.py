@@ -1,4 +1,4 @@
-"""`solidtree font`: a font's facts, a glyph's outline, or a text as it shapes it."""
+"""`solidtree font`: a font's facts, a glyph's outline, a text as it shapes it, or a changed font saved."""
 
 from __future__ import annotations
 
@@ -14,6 +14,12 @@ def add_options(command: argparse.ArgumentParser) -> None:
     shown = command.add_mutually_exclusive_group()
     shown.add_argument("--text", metavar="S", help="the outlines of a text, shaped; lines end with a line break")
     shown.add_argument("--glyph", metavar="NAME", help="the outline of one glyph, by its name or its character")
+    shown.add_argument("--save", metavar="OUT", help="write it as .ttf, .otf or .pfb; see --slant and --weight")
+    command.add_argument("--family", metavar="NAME", help="of the font that is saved; default: one its licence allows")
+    command.add_argument(
+        "--characters", default="", metavar="S", help="with --save: which lean and grow, as α-ω; default all"
+    )
+    command.add_argument("--weight", type=float, default=0.0, metavar="UNITS", help="with --save: grow the outlines")
     command.add_argument("--face", type=int, default=0, metavar="N", help="of a collection, from 0; default 0")
     command.add_argument("--size", type=positive, metavar="MM", help="of the em: lengths in mm, not font units")
     command.add_argument(
@@ -35,6 +41,8 @@ def font(options: argparse.Namespace) -> int:
     from ...model.lettering.report import facts_of, glyph_of, text_of
 
     data = font_bytes(options.file)
+    if options.save is not None:
+        return _save(options, data)
     face = open_face(data, options.face)
     location, features = location_of(" ".join(options.axis)), features_of(" ".join(options.feature))
     style = Style(
@@ -55,3 +63,20 @@ def font(options: argparse.Namespace) -> int:
     if answer["missing"]:
         warn(options.file, f"it has no glyph for {', '.join(f'U+{code:04X}' for code in answer['missing'])}")
     return NOT_IN_ORDER if answer["missing"] else DONE
+
+
+def _save(options: argparse.Namespace, data: bytes) -> int:
+    from ...model.lettering.changing import write_changed_font
+
+    remarks = write_changed_font(
+        data,
+        options.face,
+        options.save,
+        options.family,
+        characters=options.characters,
+        slant=options.slant,
+        weight=options.weight,
+    )
+    for remark in remarks:
+        warn(options.save, remark)
+    return DONE

@@ -23,8 +23,8 @@ class Extrude(Node):
     height: Number = fields.size(10.0, "Height")
     below: Number = fields.length(0.0, "Below", "How far it is drawn to the other side as well", minimum=0.0)
     taper: Number = fields.angle(0.0, "Taper", "How far the walls lean inwards, from -89 to 89")
-    bevel: Number = fields.length(0.0, "Bevel", "Cuts the edge of the top at 45°, by so much in height and width, as of "
-                                  "raised letters; where they are narrower they end in a ridge", minimum=0.0)  # fmt: skip
+    bevel: Number = fields.length(0.0, "Bevel", "Cuts the edge of the top at 45°, by so much in height and in width; "
+                                  "what is narrower ends in a ridge", minimum=0.0)  # fmt: skip
     twist: Number = fields.angle(0.0, "Twist", "From the outline to the top")
     top_scale: Number = fields.factor(1.0, "Top scale", "Of the outline at the top; 0 makes a point", minimum=0.0)
     centred: bool = fields.flag(False, "Centred", "The origin at half the height")

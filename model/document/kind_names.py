@@ -9,6 +9,7 @@ FUNCTION_NAMES = {
     "LinearArray": "linear_array",
     "PolarArray": "polar_array",
     "ImportedMesh": "imported_mesh",
+    "TextOnPath": "text_on_path",
 }
 
 

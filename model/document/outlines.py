@@ -125,11 +125,41 @@ class Lettering(Node):
     language: str = fields.text("", "Language", "As “tr” or “sr”, where letters differ by language", "line")
 
 
-OUTLINES: tuple[type[Node], ...] = (Rectangle, Circle, Polygon, Path, Bezier, BSpline, Lettering)
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class TextOnPath(Node):
+    """The first operand, a lettering, set along the second, a curve in the plane; every letter stays as it is.
+
+    The x axis of the lettering runs along the curve, from its beginning, its middle or its end as the lettering is
+    aligned; a letter stands on it with the middle of its advance, marks with their letter, and turns as the curve does
+    there. A closed curve is run round once.
+    """
+
+    title: ClassVar[str] = "Text on a path"
+    operands: ClassVar[tuple[int, int | None]] = (2, 2)
+    start: Number = fields.length(0.0, "Start", "How much farther along the curve the lettering stands")
+    shift: Number = fields.length(0.0, "Shift", "How far off the curve it stands, to the letters' top")
+    flip: bool = fields.flag(False, "Other side", "It runs the other way, on the other side of the curve")
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Stencil(Node):
+    """An outline whose holes are joined by bridges to what lies around it, so that nothing falls out where it is cut.
+
+    A bridge goes straight through the middle of its hole, where the wall is the thinner one of both sides.
+    """
+
+    title: ClassVar[str] = "Stencil"
+    operands: ClassVar[tuple[int, int | None]] = (1, 1)
+    width: Number = fields.size(1.0, "Width", "Of each bridge")
+    angle: Number = fields.angle(90.0, "Angle", "Of the bridges; 90: up and down")
+    bridges: Number = fields.count(1, "Bridges", "Of each hole: 1, or 2 on opposite sides", minimum=1)
+
+
+OUTLINES: tuple[type[Node], ...] = (Rectangle, Circle, Polygon, Path, Bezier, BSpline, Lettering, TextOnPath)
 CURVES: tuple[type[Node], ...] = (Path, Bezier, BSpline)
 """The outlines whose points can be moved one by one."""
-OF_OUTLINES: tuple[type[Node], ...] = (Union, Difference, Intersection, LinearArray, PolarArray, Mirror)
-"""The operations that take outlines as well as solids: their result is what their operands are."""
+OF_OUTLINES: tuple[type[Node], ...] = (Union, Difference, Intersection, LinearArray, PolarArray, Mirror, Stencil)
+"""The operations whose result is flat where their operands are; all but the stencil take solids as well."""
 
 
 def is_outline(node: Node, definitions: Iterable[Node] = ()) -> bool:

@@ -124,18 +124,35 @@ def _hexagon() -> Polygon:
     return Polygon(points=tuple((round(10 * math.cos(a), 6), round(10 * math.sin(a), 6)) for a in corners))
 
 
-def _make_solid_command(kind: str, title: str, fewest: int, most: int | None, shortcut: str, tip: str) -> Command:
+def _outlines_fault(fewest: int, most: int | None, ask: str) -> Callable[[Session], str | None]:
+    """A fault for commands that take so many selected outlines; most None: any number. `ask` is said of others."""
+
     def fault(session: Session) -> str | None:
         outlines = Outlines(session.document.definitions)
         solid = next((node for node in chosen(session).nodes if node not in outlines), None)
         if solid is not None:
             return f"“{solid.label}” is no outline; select outlines"
         count = len(session.selection)
-        if count < fewest or (most is not None and count > most):
-            return {1: "select an outline first", 2: "select two outlines or more"}[fewest] if most is None else (
-                "select two: an outline and the path to draw it along")  # fmt: skip
-        return None
+        return ask if count < fewest or (most is not None and count > most) else None
 
+    return fault
+
+
+def _text_on_path_fault(session: Session) -> str | None:
+    ask = "select two: a lettering and the curve to set it along"
+    fault = _outlines_fault(2, 2, ask)(session)
+    either = any(isinstance(node, Lettering | Instance) for node in chosen(session).nodes)
+    return fault or (None if either else ask)
+
+
+def _done_by(operation: str, title: str) -> Callable[[Session], None]:
+    return lambda session: done(session.do(operation, list(session.selection), label=title))
+
+
+def _make_solid_command(kind: str, title: str, fewest: int, most: int | None, shortcut: str, tip: str) -> Command:
+    ask = {1: "select an outline first", 2: "select two outlines or more"}[fewest] if most is None else (
+        "select two: an outline and the path to draw it along")  # fmt: skip
+    fault = _outlines_fault(fewest, most, ask)
     return Command(kind, title, "Curve", lambda s: done(s.do("make_solid", kind, list(s.selection), label=title)),
                    fault, shortcut, kind, tip)  # fmt: skip
 
@@ -182,6 +199,11 @@ DOCUMENT_COMMANDS: tuple[Command, ...] = (
     _make_solid_command("loft", "Loft", 2, None, "", "Stretch a solid over the selected outlines, in their order"),
     _make_solid_command("pipe", "Pipe", 1, None, "", "A round bar along each selected path"),
     _make_solid_command("wrap", "Wrap", 1, None, "", "Lay each selected outline round a cylinder"),
+    Command("text_on_path", "Text on path", "Curve", _done_by("set_text_on_path", "Text on path"), _text_on_path_fault,
+            "Alt+P", "text_on_path", "Set the selected lettering along the selected curve"),
+    Command("stencil", "Stencil", "Curve", _done_by("make_stencils", "Stencil"),
+            _outlines_fault(1, None, "select an outline first"), "", "stencil",
+            "Hold the middles of the selected letters by bridges, so that they can be cut out"),
     _combine_command("union", "Union", "Ctrl+U", "All that lies in any of the selected nodes"),
     _combine_command("difference", "Difference", "Ctrl+D", "The first selected node less the others"),
     _combine_command("intersection", "Intersection", "Ctrl+I", "What lies in all of the selected nodes"),

@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -13,6 +15,7 @@ from numpy.typing import NDArray
 from ..document.errors import Refusal
 from ..document.outlines import Path as PathNode
 from ..outline.paths import fields_of, own_path
+from ..path.nodes import inferred
 from ..path.path import Path
 from .drawn_glyph import DrawnGlyph
 from .face import DEFAULT, Face, Location, Run, Shaped
@@ -120,9 +123,7 @@ def check_glyph(name: str, glyph: DrawnGlyph) -> None:
         if not contour.closed:
             raise Refusal(f"{who} has an open contour: those of letters are closed")
         if contour.dimension != 2 or contour.splines:
-            raise Refusal(
-                f"{who} has a contour that no font can hold: B-splines, or one in space"
-            )
+            raise Refusal(f"{who} has a contour that no font can hold: B-splines, or one in space")
         if not (abs(contour.points) <= FARTHEST).all():
             raise Refusal(f"{who} reaches farther than {FARTHEST:g} units from its origin, more than a font can hold")
 
@@ -132,7 +133,10 @@ def transformed(face: Face, name: str, matrix: NDArray[np.float64], weight: floa
 
     Its width goes with the map's scale along x; the side bearings stay as it grows. Raises Refusal.
     """
-    outline = face.outline(name).transformed(matrix)
+    own = face.outline(name)
+    if not isinstance(face.source(name), EditedFace):  # files do not say which nodes are smooth
+        own = replace(own, contours=tuple(inferred(contour) for contour in own.contours))
+    outline = own.transformed(matrix)
     advance = face.advance(name) * abs(float(matrix[0, 0]))
     if weight and outline.contours:
         from ..path.areas.offsetting import offset
@@ -144,5 +148,16 @@ def transformed(face: Face, name: str, matrix: NDArray[np.float64], weight: floa
 
 def touched(face: Face, glyphs: Iterable[str]) -> set[str]:
     """Those glyphs and all that are put together from them."""
+    wholes = _wholes(face.base if isinstance(face, EditedFace) else face)
     changed = set(glyphs)
-    return changed | {name for name in face.glyph_names if not changed.isdisjoint(face.parts(name))}
+    return changed.union(*(wholes.get(name, ()) for name in changed))
+
+
+@lru_cache(maxsize=4)
+def _wholes(face: Face) -> dict[str, list[str]]:
+    """For each glyph those that are put together from it."""
+    found: dict[str, list[str]] = {}
+    for name in face.glyph_names:
+        for part in face.parts(name):
+            found.setdefault(part, []).append(name)
+    return found

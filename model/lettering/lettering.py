@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import unicodedata
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -15,7 +16,7 @@ from ..document.outlines import Lettering
 from ..path.path import Contour, Path
 from ..project.assets import default_store
 from .face import Face
-from .layout import Layout, Style, lay_out
+from .layout import Laid, Layout, Style, lay_out
 from .library import face_of, fallbacks, version_of
 from .runs import missing_in
 
@@ -35,8 +36,9 @@ Drawn = tuple[Face, str, Place, Scale, float]
 def path_of_lettering(node: Lettering) -> Path:
     """A resolved lettering in its own axes, mm, filled by the non-zero rule. Raises Refusal."""
     contours: list[Contour] = []
-    for drawn, (x, y) in _placed(node):
-        contours += _outline(*drawn).transformed(((1.0, 0.0, x), (0.0, 1.0, y))).contours
+    for one, drawn in drawn_glyphs(node):
+        x, y = one.matrix[:, 2].tolist()
+        contours += outline_of_glyph(*drawn).transformed(((1.0, 0.0, x), (0.0, 1.0, y))).contours
     return Path(tuple(contours))
 
 
@@ -45,30 +47,30 @@ def rings_of_lettering(node: Lettering, tolerance: float, most: int) -> list[NDA
     points in all."""
     rings: list[NDArray[np.float64]] = []
     total = 0
-    for drawn, place in _placed(node):
-        flat = _flattened(*drawn, tolerance)
-        rings += [np.add(points, place) for points in flat]
+    for one, drawn in drawn_glyphs(node):
+        flat = rings_of_glyph(*drawn, tolerance)
+        rings += [np.add(points, one.matrix[:, 2]) for points in flat]
         total += sum(map(len, flat))
         if total > most:
             raise Refusal(f"a tolerance of {tolerance:g} mm makes more than {most:,} points; take a coarser one")
     return rings
 
 
-def _placed(node: Lettering) -> Iterator[tuple[Drawn, tuple[float, float]]]:
-    """Each glyph, and where its origin is."""
+def drawn_glyphs(node: Lettering) -> Iterator[tuple[Laid, Drawn]]:
+    """Each glyph of a resolved lettering as it is laid out, and what draws it about its own origin. Raises Refusal."""
     faces, layout, location = _laid_out(node)
     weight, own = float(node.weight), tuple(sorted(location.items()))  # type: ignore[arg-type]
     for one in layout.glyphs:
-        (across, shear, x), (_, up, y) = one.matrix.tolist()
+        (across, shear, _), (_, up, _) = one.matrix.tolist()
         source = faces[one.face].source(one.glyph)  # what is not edited is drawn once for all edits
-        yield (source, one.glyph, () if one.face else own, (across, shear, up), weight), (x, y)
+        yield one, (source, one.glyph, () if one.face else own, (across, shear, up), weight)
 
 
 # What has been drawn before is placed alone: of a text that is edited, the letters that were there.
 
 
 @lru_cache(maxsize=2048)
-def _outline(face: Face, glyph: str, location: Place, scale: Scale, weight: float) -> Path:
+def outline_of_glyph(face: Face, glyph: str, location: Place, scale: Scale, weight: float) -> Path:
     """A glyph about its own origin, mm."""
     across, shear, up = scale
     path = face.outline(glyph, dict(location)).transformed(((across, shear, 0.0), (0.0, up, 0.0)))
@@ -80,32 +82,50 @@ def _outline(face: Face, glyph: str, location: Place, scale: Scale, weight: floa
 
 
 @lru_cache(maxsize=4096)
-def _flattened(
+def rings_of_glyph(
     face: Face, glyph: str, location: Place, scale: Scale, weight: float, tolerance: float
 ) -> list[NDArray[np.float64]]:
     from ..path.flatten import flatten
 
-    return flatten(_outline(face, glyph, location, scale, weight), tolerance)
+    return flatten(outline_of_glyph(face, glyph, location, scale, weight), tolerance)
+
+
+@dataclass(frozen=True, slots=True)
+class Chain:
+    """The fonts that a text is set in: the chosen one, those after it in order, the characters that each of them lends
+    as (font, code points), and those that no font has."""
+
+    own: str
+    then: tuple[str, ...]
+    lent: tuple[tuple[str, tuple[int, ...]], ...]
+    lost: tuple[int, ...]
+
+
+def chain_of(node: Lettering) -> Chain:
+    """The fonts of a resolved lettering. Raises Refusal."""
+    faces = _chain(node)
+    lost = missing_in(node.text, faces)
+    lent: dict[int, list[int]] = {}
+    for code in missing_in(node.text, faces[:1]):
+        if code not in lost:
+            number = next(n for n, face in enumerate(faces) if code in face.characters)
+            lent.setdefault(number, []).append(code)
+    names = [face.name for face in faces]
+    lends = tuple((names[number], tuple(codes)) for number, codes in sorted(lent.items()))
+    return Chain(names[0], tuple(names[1:]), lends, tuple(lost))
 
 
 def remarks_on(node: Lettering) -> list[str]:
     """What a reader should know of how a resolved lettering is set: fonts that stand in, characters without a glyph."""
     try:
-        faces = _chain(node)
+        chain = chain_of(node)
     except Refusal:
         return []
-    own, text = faces[0], node.text
     remarks = _on_version(node)
-    lost = missing_in(text, faces)
-    lent: dict[int, list[int]] = {}
-    for code in missing_in(text, faces[:1]):
-        if code not in lost:
-            number = next(n for n, face in enumerate(faces) if code in face.characters)
-            lent.setdefault(number, []).append(code)
-    for number, codes in sorted(lent.items()):
-        remarks.append(f"{own.name} has no {_listed(codes)}: set in {faces[number].name}")
-    if lost:
-        remarks.append(f"no font of the chain has {_listed(lost)}: shown as a box; choose a font that has it")
+    for name, codes in chain.lent:
+        remarks.append(f"{chain.own} has no {listed(codes)}: set in {name}")
+    if chain.lost:
+        remarks.append(f"no font of the chain has {listed(chain.lost)}: shown as a box; choose a font that has it")
     return remarks
 
 
@@ -185,7 +205,8 @@ def _chain(node: Lettering) -> list[Face]:
     return [own, *(face for face in fallbacks() if face is not own and face.name != own.name)]
 
 
-def _listed(codes: Sequence[int]) -> str:
+def listed(codes: Sequence[int]) -> str:
+    """Characters by their code points, with their names."""
     shown = [_character(code) for code in codes[:NAMED]]
     more = f" and {len(codes) - NAMED} more" if len(codes) > NAMED else ""
     return ", ".join(shown) + more

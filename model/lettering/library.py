@@ -107,16 +107,23 @@ def version_of(name: str) -> tuple[str, int] | None:
         return None
 
 
-def take(name: str) -> tuple[str, int]:
-    """Take the file of an installed font among the assets: its SHA-256 and the number of the face. Raises Refusal,
-    also where its licence forbids it."""
+def bytes_of(name: str, asset: str = "", number: int = 0) -> tuple[bytes, int]:
+    """What is in the file of a font, by its name or among the assets, and the number of its face. Raises Refusal."""
+    if asset and default_store().has(asset):
+        return default_store().read(asset), number
     found = find(name)
     if found is None:
         face_of(name)  # which says so
         raise Refusal(f"no font “{name:.60}” is installed")
-    data = font_bytes(found.path)
-    check_embedding(data, found.number)
-    return default_store().put(data), found.number
+    return font_bytes(found.path), found.number
+
+
+def take(name: str) -> tuple[str, int]:
+    """Take the file of an installed font among the assets: its SHA-256 and the number of the face. Raises Refusal,
+    also where its licence forbids it."""
+    data, number = bytes_of(name)
+    check_embedding(data, number)
+    return default_store().put(data), number
 
 
 def fallbacks() -> list[Face]:
@@ -133,6 +140,11 @@ def keep(path: str | os.PathLike[str], number: int = 0) -> tuple[str, str]:
     except Refusal as refusal:
         raise Refusal(f"{Path(path).name}: {refusal}") from None
     return name, default_store().put(data)
+
+
+def faces_in(path: str | os.PathLike[str]) -> tuple[FontFile, ...]:
+    """The faces of a font file, in their order; none where it cannot be read."""
+    return _names_in(Path(path))
 
 
 @lru_cache(maxsize=OPEN)

@@ -94,6 +94,16 @@ class SfntFace(Face):
                 open_ += new
         return frozenset(found)
 
+    @property
+    def legal(self) -> list[str]:
+        """Copyright, trademark and licence, as its records tell them."""
+        names = self._font.get("name")
+        found = [names.getDebugName(name_id) or "" for name_id in (0, 7, 13)] if names else []
+        if "CFF " in self._font:
+            top = self._font["CFF "].cff.topDictIndex[0]
+            found += [str(getattr(top, "Notice", "") or ""), str(getattr(top, "Copyright", "") or "")]
+        return [text for text in found if text]
+
     def _known(self, glyph: str) -> None:
         if glyph not in self._font.getReverseGlyphMap():
             raise Refusal(f"{self.name} has no glyph “{glyph}”")

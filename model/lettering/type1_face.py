@@ -32,6 +32,7 @@ class Type1Face(Face):
             info = facts.get("FontInfo", {})
             self.family = str(info.get("FamilyName") or facts.get("FontName") or "Nameless")
             self.style = style_of(info, self.family)
+            self.notice = str(info.get("Notice") or "")
             box = [float(value) for value in facts.get("FontBBox", ())] or [0.0, -200.0, 1000.0, 800.0]
             slant = -float(info.get("ItalicAngle") or 0.0)
         self.characters = {}

@@ -28,6 +28,9 @@ Shape = Plane | CylinderSurface | ConeSurface | SphereSurface | TorusSurface | N
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 UP: Vector = (0.0, 0.0, 1.0)
 
+LEVEL = 1e-6
+"""The z of the unit normal of an upright facet is below this."""
+
 
 @singledispatch
 def shape_of(leaf: Node, corners: Floats, normal: Floats) -> Shape:
@@ -81,7 +84,15 @@ def _extrusion(leaf: Extrude, corners: Floats, normal: Floats) -> Shape:
         return None
     (x, y), radius = circle
     scale = float(leaf.top_scale)
-    foot = -height / 2 if leaf.centred else 0.0
+    foot = (float(leaf.below) - height) / 2 if leaf.centred else 0.0
+    if leaf.taper or leaf.bevel:
+        if abs(normal[2]) < LEVEL:
+            return CylinderSurface((x, y, 0.0), UP, radius)
+        half, begin = (float(leaf.taper), foot) if leaf.taper else (45.0, foot + height - float(leaf.bevel))
+        upper = (corners[:, 2].mean() > foot) == (half > 0.0)  # its apex is above its wide end
+        way = 1.0 if upper else -1.0
+        apex = begin + way * radius / math.tan(math.radians(abs(half)))
+        return ConeSurface((x, y, apex), (0.0, 0.0, -way), abs(half))
     if scale == 1.0 and not (leaf.twist and (x or y)):
         return CylinderSurface((x, y, 0.0), UP, radius)
     return _slanted(radius, foot, scale * radius, foot + height) if x == y == 0.0 else None

@@ -77,6 +77,7 @@ def transform_glyphs(
     Widths go with the map's scale along x, and side bearings stay as the outlines grow.
     """
     from ..lettering.edited_face import transformed
+    from ..lettering.in_document import face_in
 
     try:
         affine = np.array(matrix, float)
@@ -98,8 +99,10 @@ def transform_glyphs(
 
 def reset_glyphs(document: Document, font: str, glyphs: Sequence[str] | str | None = None) -> Document:
     """Give glyphs, by their names, the shapes that the font's file has; None: all."""
+    from ..lettering.in_document import drawn_of
+
     known = _known(document, font)
-    drawn = _drawn(known)
+    drawn = drawn_of(known)
     gone = set(drawn) if glyphs is None else set(_listed(glyphs))
     if not gone & set(drawn):
         return document
@@ -123,26 +126,15 @@ def with_fonts_of(document: Document, other: Document) -> tuple[Document, Docume
     return document.with_(fonts=tuple(fonts)), other
 
 
-def face_in(document: Document, font: str) -> Face:
-    """The face that a font's name stands for in a document. Raises Refusal."""
-    from ..lettering.library import face_of
-
-    font = str(font)
-    known = font_named(document.fonts, font)
-    if known is not None:
-        return face_of(known.name, known.asset or known.base, known.face)
-    used = _asset_of(document, font)
-    return face_of(font, *used) if used else face_of(font)
-
-
 def _edited(document: Document, font: str, glyphs: Mapping[str, DrawnGlyph]) -> Document:
     from ..lettering.edited_face import check_glyph
+    from ..lettering.in_document import drawn_of, face_in
 
     known = _carried(document, font)
     _check_names(face_in(document, font), font, glyphs)
     for name, glyph in glyphs.items():
         check_glyph(name, glyph)
-    return _put(document, _with_glyphs(known, {**_drawn(known), **glyphs})) if glyphs else document
+    return _put(document, _with_glyphs(known, {**drawn_of(known), **glyphs})) if glyphs else document
 
 
 def _listed(glyphs: object) -> list[str]:
@@ -161,13 +153,14 @@ def _check_names(face: Face, font: str, names: Iterable[str]) -> None:
 
 def _carried(document: Document, font: str) -> ProjectFont:
     """The project's font of that name, with its file among the assets."""
+    from ..lettering.in_document import asset_of
     from ..lettering.library import take
 
     font = str(font)
     known = font_named(document.fonts, font)
     if known is not None and known.asset:
         return known
-    used = _asset_of(document, font)
+    used = asset_of(document, font)
     if used is not None and known is None:
         return ProjectFont(font, used[0], used[1], used[0])
     name = known.name if known is not None else font
@@ -175,26 +168,11 @@ def _carried(document: Document, font: str) -> ProjectFont:
     return ProjectFont(name, base, face, base)
 
 
-def _asset_of(document: Document, font: str) -> tuple[str, int] | None:
-    """The font file, and the number of the face, that lettering in a font of this name refers to."""
-    for node in walk(*document.roots):
-        if isinstance(node, Lettering) and node.asset and font_key(node.font) == font_key(font):
-            return node.asset, int(node.face) if isinstance(node.face, float) else 0
-    return None
-
-
 def _known(document: Document, font: str) -> ProjectFont:
     known = font_named(document.fonts, font)
     if known is None or not known.asset:
         raise Refusal(f"the project carries no font called “{font!s:.60}”")
     return known
-
-
-def _drawn(font: ProjectFont) -> dict[str, DrawnGlyph]:
-    from ..lettering.edited_face import glyphs_from_bytes
-    from ..project.assets import default_store
-
-    return glyphs_from_bytes(default_store().read(font.asset))[2] if font.edited else {}
 
 
 def _with_glyphs(font: ProjectFont, drawn: Mapping[str, DrawnGlyph]) -> ProjectFont:

@@ -43,9 +43,10 @@ from .curves.nodes import (
     transform_nodes,
 )  # fmt: skip
 from .curves.outline_areas import combine_outlines, offset_outline, stroke_outline
+from .engraving import engrave
 from .fonts import carry_font, copy_font, edit_glyphs, release_font, reset_glyphs, transform_glyphs
 from .linking import check_definitions, insert_document, link, unlink
-from .outlining import make_solid
+from .outlining import make_solid, make_stencils, set_text_on_path
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
 from .parameters import declaring, delete_parameter, rename_parameter, reorder_parameter, set_parameter
 from .pasting import paste
@@ -145,13 +146,14 @@ def set_note(document: Document, node_id: str, note: str) -> Document:
 OPERATIONS: dict[str, Callable[..., Document]] = {
     function.__name__: function
     for function in (
-        insert, insert_document, paste, replace, delete, combine, make_solid, dissolve, change_kind, relocate, copy_to,
-        duplicate, reorder, promote, swap, link, unlink, rename, rename_each, set_field, set_fields, place, move, turn,
+        insert, insert_document, paste, replace, delete, combine, make_solid, make_stencils, set_text_on_path,
+        dissolve, change_kind, relocate, copy_to, duplicate, reorder, promote, swap, link, unlink, rename, rename_each,
+        set_field, set_fields, place, move, turn,
         scale, shift, set_colour, set_visible, set_note,
         set_parameter, rename_parameter, delete_parameter, reorder_parameter, set_parameters,
         save_set, put_sets, apply_set, rename_set, delete_set,
         add_section, set_section, rename_section, delete_section,
-        carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
+        engrave, carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
         bend_segment,
         combine_outlines, offset_outline, stroke_outline,
         convert_to_path, convert_to_bspline, move_nodes, place_nodes, move_handle, set_handle, set_joints, insert_node,

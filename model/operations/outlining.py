@@ -1,4 +1,4 @@
-"""Solids made of outlines that stand in the document, which are taken in and stay where they are in space."""
+"""Solids, and other outlines, made of outlines that stand in the document, which are taken in and stay in place."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.from_outlines import FROM_OUTLINES, Extrude, Loft, Pipe, Revolve, Sweep, Wrap
 from ..document.kind_names import function_name
-from ..document.nodes import Node, field_specs
-from ..document.outlines import OUTLINES, Outlines
+from ..document.nodes import Instance, Node, field_specs
+from ..document.outlines import OUTLINES, Lettering, Outlines, Stencil, TextOnPath
 from ..document.placement import Move, Placement, Turn, moved
 from ..document.resolve import resolve
-from ..document.tree import change_each, next_number, outermost, put, trails, walk
+from ..document.tree import change_each, next_number, outermost, put, trails
 from .fitting import carried_into, check_free, check_left, lies_flat, named_apart, steps_above
 from .parameters import declaring
 
@@ -33,6 +33,66 @@ def make_solid(document: Document, kind: str, ids: Sequence[str] | str, **fields
         raise Refusal(f"there is no solid of outlines called {kind!r:.60}; there are {', '.join(MAKERS)}")
     wanted = MAKERS[kind]
     checked = _checked(wanted, fields)
+    ids, outlines = _taken(document, ids, wanted)
+    groups = _SORTED[wanted](document, outlines)
+    number = next_number(document)
+    solids = [
+        _placed(wanted, group, checked).with_(id=f"n{number + i}", **checked) for i, group in enumerate(groups)
+    ]  # fmt: skip
+    return _put_for(document, ids, solids, list(checked.values()))
+
+
+def set_text_on_path(document: Document, ids: Sequence[str] | str, **fields: Any) -> Document:
+    """Set a lettering along a curve: two outlines, in any order. `fields` are those of the kind, such as flip=True.
+
+    The curve stays where it is; the lettering comes to it with its own origin.
+    """
+    checked = _checked(TextOnPath, fields)
+    ids, outlines = _taken(document, ids, TextOnPath)
+    letterings = [_is_lettering(outline, document) for outline in outlines]
+    if sorted(letterings) != [False, True]:
+        raise Refusal(f"a text on a path takes two: a lettering and a curve{_instead(letterings)}")
+    curve, lettering = (outlines[letterings.index(what)] for what in (False, True))
+    own, place = _parted(curve.placement, False)
+    lettering = lettering.with_(placement=_parted(lettering.placement, False)[0])
+    made = TextOnPath(id=f"n{next_number(document)}", children=(lettering, curve.with_(placement=own)), placement=place)
+    return _put_for(document, ids, [made.with_(**checked)], list(checked.values()))
+
+
+def make_stencils(document: Document, ids: Sequence[str] | str, **fields: Any) -> Document:
+    """Hold the holes of outlines by bridges: a stencil of each. `fields` are those of the kind, such as width=2."""
+    checked = _checked(Stencil, fields)
+    ids, outlines = _taken(document, ids, Stencil)
+    number = next_number(document)
+    made = []
+    for outline in _each_closed(document, outlines):
+        own, place = _parted(outline[0].placement, False)
+        children = (outline[0].with_(placement=own),)
+        made.append(Stencil(id=f"n{number + len(made)}", children=children, placement=place).with_(**checked))
+    return _put_for(document, ids, made, list(checked.values()))
+
+
+def _instead(letterings: list[bool]) -> str:
+    many = sum(letterings)
+    if len(letterings) != 2:
+        return f", not {len(letterings)}"
+    return ", not two letterings: make one of them a path" if many else ", and neither of these is a lettering"
+
+
+def _is_lettering(outline: Node, document: Document) -> bool:
+    definitions = {root.id: root for root in document.definitions}
+    while isinstance(outline, Instance) and outline.definition in definitions:
+        outline = definitions[outline.definition]
+    return isinstance(outline, Lettering)
+
+
+def _put_for(document: Document, ids: Sequence[str], made: list[Node], declared: list[Any]) -> Document:
+    document = change_each(declaring(document, declared), ids, lambda node: None)
+    return put(document, named_apart(document, made))
+
+
+def _taken(document: Document, ids: Sequence[str] | str, wanted: type[Node]) -> tuple[Sequence[str], list[Node]]:
+    """The outlines with these ids, placed in the world, which may all be taken in."""
     ids = outermost(document, ids)
     check_free(document, ids)
     ways = trails(document, ids)
@@ -46,14 +106,7 @@ def make_solid(document: Document, kind: str, ids: Sequence[str] | str, **fields
             raise Refusal(f"“{node.label}” stands in a definition, which has no one place in space: unlink an instance")
         outlines.append(node.with_(placement=Placement((*node.placement.steps, *steps_above(way)))))
     check_left(ways.values(), flat)
-    groups = _SORTED[wanted](document, outlines)
-    number = next_number(document)
-    solids = [
-        _placed(wanted, group, checked).with_(id=f"n{number + i}", **checked) for i, group in enumerate(groups)
-    ]  # fmt: skip
-    document = declaring(document, list(checked.values()))
-    document = change_each(document, ids, lambda node: None)
-    return put(document, named_apart(document, solids))
+    return ids, outlines
 
 
 def _checked(kind: type[Node], fields: dict[str, Any]) -> dict[str, Any]:
@@ -143,8 +196,11 @@ def _open(document: Document, outline: Node) -> str | None:
     from ..outline.paths import own_path
 
     alone = Document(profiles=(outline,), definitions=document.definitions, parameters=document.parameters)
-    for node in walk(*resolve(alone).profiles):
+    below = list(resolve(alone).profiles)
+    while below:
+        node = below.pop()
         if not isinstance(node, OUTLINES):
+            below += node.children
             continue
         path = own_path(node)
         if not path.contours:

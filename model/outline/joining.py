@@ -6,11 +6,13 @@ import numpy as np
 
 from ..document.errors import Refusal
 from ..document.nodes import Difference, Intersection, LinearArray, Mirror, Node, PolarArray, Union
+from ..document.outlines import Stencil
 from ..path.areas.booleans import combined
 from ..path.path import Path
 from ..solid.copies import copies
 from ..solid.failure import NoSolid
 from .paths import moved
+from .stencil import stencilled_path
 
 KINDS: dict[type[Node], str] = {Union: "union", Difference: "difference", Intersection: "intersection"}
 
@@ -21,6 +23,8 @@ def joined_path(node: Node, paths: list[Path]) -> Path:
     Areas are joined where they overlap; open curves, and curves in space, of a union or of copies stand side by side.
     Raises Refusal.
     """
+    if isinstance(node, Stencil):
+        return stencilled_path(paths[0], node)
     kind = KINDS.get(type(node))
     if isinstance(node, LinearArray | PolarArray | Mirror):
         kind = "union"

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..document.errors import Refusal
 from ..document.expression import Number
 from ..document.nodes import Broken, Instance, Node, range_fault
-from ..document.outlines import Bezier, BSpline, Circle, Lettering, Path, Polygon, Rectangle
+from ..document.outlines import Bezier, BSpline, Circle, Lettering, Path, Polygon, Rectangle, TextOnPath
 from ..document.placement import Placement
 from ..path import path as curves
 from ..path import shapes
@@ -32,14 +32,15 @@ def path_of(node: Node) -> curves.Path:
     stack: list[tuple[Node, bool]] = [(node, False)]
     while stack:
         here, ready = stack.pop()
+        children = () if isinstance(here, TextOnPath) else here.children  # which asks for its own
         if not ready:
             stack.append((here, True))
-            stack += [(child, False) for child in reversed(here.children)]
+            stack += [(child, False) for child in reversed(children)]
             continue
         fault = here.message if isinstance(here, Broken) else range_fault(here)
         if fault:
             raise Refusal(fault)
-        size = len(here.children)
+        size = len(children)
         below = made[len(made) - size :]
         del made[len(made) - size :]
         made.append(placed(_joined(here, below) if size else own_path(here), here.placement))
@@ -79,7 +80,7 @@ def in_plane(matrix: NDArray[np.float64]) -> NDArray[np.float64] | None:
 
 @singledispatch
 def own_path(node: Node) -> curves.Path:
-    """A resolved outline without operands as a path in its own axes, before its placement. Raises Refusal."""
+    """A resolved outline of `OUTLINES` as a path in its own axes, before its placement. Raises Refusal."""
     raise Refusal(f"{node.title}: a solid stands where an outline is needed")
 
 
@@ -119,6 +120,13 @@ def path_of_lettering(node: Lettering) -> curves.Path:
     from ..lettering.lettering import path_of_lettering
 
     return path_of_lettering(node)
+
+
+@own_path.register
+def path_of_text_on_path(node: TextOnPath) -> curves.Path:
+    from ..lettering.along import path_along
+
+    return path_along(node)
 
 
 @own_path.register

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from ..document.from_outlines import Extrude, Loft, Pipe, Revolve, Sweep, Wrap
 from ..document.nodes import Node
-from ..document.outlines import Bezier, BSpline, Circle, Lettering, Path, Polygon, Rectangle
+from ..document.outlines import Bezier, BSpline, Circle, Path, Polygon, Rectangle
 from .shapes import Value
 
 if TYPE_CHECKING:
@@ -45,43 +45,6 @@ def polygon(points: Iterable[Sequence[Value]] = (), loops: Iterable[Sequence[int
     12.0
     """
     return Polygon(points=tuple(tuple(p) for p in points), loops=tuple(tuple(loop) for loop in loops))
-
-
-def lettering(
-    text: str = "Text",
-    size: Value = 10,
-    font: str | os.PathLike[str] = "DejaVu Sans",
-    *,
-    face: int = 0,
-    asset: str = "",
-    alignment: str = "left",
-    anchor: str = "baseline",
-    direction: str = "auto",
-    line_spacing: Value = 1,
-    letter_spacing: Value = 0,
-    width: Value | None = None,
-    slant: Value = 0,
-    weight: Value = 0,
-    axes: str = "",
-    features: str = "",
-    language: str = "",
-) -> Lettering:
-    """Text as an outline, in a font by its name, or by the path of a font file, which then goes with the project.
-
-    >>> letters = lettering("AVTo", 12, "GFS Didot", slant=12)
-    >>> measure(extrude(letters, 2)).closed
-    True
-    """
-    from ..lettering.library import ENDINGS, find, keep
-
-    name = os.fspath(font)
-    if not asset and PurePath(name).suffix.lower() in ENDINGS and find(name) is None:
-        name, asset = keep(name, face)
-    return Lettering(
-        text=text, font=name, asset=asset, face=face, size=size, alignment=alignment, anchor=anchor,
-        direction=direction, line_spacing=line_spacing, letter_spacing=letter_spacing, width=width, slant=slant,
-        weight=weight, axes=axes, features=features, language=language,
-    )  # fmt: skip
 
 
 def path(
@@ -197,19 +160,24 @@ def extrude(
     *,
     below: Value = 0,
     taper: Value = 0,
+    bevel: Value = 0,
 ) -> Extrude:
     """An outline drawn up along z, and `below` to the other side, twisted by degrees and scaled towards the top.
 
-    `taper` are the degrees that its walls lean inwards.
+    `taper` are the degrees that its walls lean inwards; `bevel` cuts the edge of the top at 45 degrees, which goes
+    with none of the three.
 
     >>> extrude(circle(10), height=5, top_scale=0.5)
     <Extrude ...>
+    >>> round(measure(extrude(rectangle(10, 10), 5, bevel=1)).volume, 6)  # 4 mm upright, then a frustum
+    481.333333
     """
     return Extrude(
         children=(outline,),
         height=height,
         below=below,
         taper=taper,
+        bevel=bevel,
         twist=twist,
         top_scale=top_scale,
         centred=centred,
@@ -287,6 +255,6 @@ def wrap(
 
 
 __all__ = [
-    "bezier", "bspline", "circle", "construction", "continuity", "extrude", "lettering", "loft", "outlines", "path",
-    "pipe", "polygon", "rectangle", "revolve", "sweep", "wrap",
+    "bezier", "bspline", "circle", "construction", "continuity", "extrude", "loft", "outlines", "path", "pipe",
+    "polygon", "rectangle", "revolve", "sweep", "wrap",
 ]  # fmt: skip

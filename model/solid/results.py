@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Hull, Node
-from ..document.outlines import Lettering
+from ..document.outlines import Lettering, TextOnPath
 from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere
 from ..document.resolve import Resolver
 from ..measuring.measure import Measures, measure
@@ -107,15 +107,18 @@ def profile_result(root: Node) -> ProfileResult:
 
 
 def remarks_on_lettering(root: Node) -> tuple[Message, ...]:
-    """What there is to say of the fonts of a resolved tree: characters that they lack, each told once a node."""
+    """What there is to say of the lettering of a resolved tree, each told once a node: characters that its fonts lack,
+    or that have no room on a curve."""
     found: dict[Message, None] = {}
     stack, seen = [root], {id(root)}
     while stack:
         node = stack.pop()
-        if isinstance(node, Lettering):
+        if isinstance(node, Lettering | TextOnPath):
+            from ..lettering.along import remarks_along
             from ..lettering.lettering import remarks_on
 
-            found |= dict.fromkeys(Message(node.id, node.label, remark, False) for remark in remarks_on(node))
+            remarks = remarks_on(node) if isinstance(node, Lettering) else remarks_along(node)
+            found |= dict.fromkeys(Message(node.id, node.label, remark, False) for remark in remarks)
         for child in reversed(node.children):
             if id(child) not in seen:  # what instances share stands in many places
                 seen.add(id(child))

@@ -224,5 +224,10 @@ SYMBOLS: dict[str, Path] = {
         *ellipse((0, -6), 7, 2.5), *lines((-7, -6), (-7, 6), closed=False), *arc((0, 6), 7, 2.5, 180, 0, "L"),
         ("L", (7, -6)), *lines((-4, 5), (-1.5, -1), (1, 5.5), closed=False),
     ),
+    "text_on_path": (
+        ("M", (-9, 8)), ("C", (-5, 3, 5, 3, 9, 8)),
+        *lines((-4.5, 1.5), (0, -9), (4.5, 1.5), closed=False), *lines((-3, -2), (3, -2), closed=False),
+    ),
+    "stencil": (*arc((-1, 0), 7, 8, 105, 255), *arc((1, 0), 7, 8, -75, 75)),
     "revolve": (*arc((0, 0), 7, 7, -60, 220), *lines((-9, -8.5), (-5.4, -4.5), (-10.3, -2.6), closed=False)),
 }  # fmt: skip

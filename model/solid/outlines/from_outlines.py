@@ -9,7 +9,7 @@ from manifold3d import CrossSection, Manifold
 
 from ...document.from_outlines import Extrude, Revolve, Wrap
 from ...document.nodes import Node, range_fault
-from ...document.outlines import CURVES
+from ...document.outlines import CURVES, Lettering
 from ...outline.paths import path_of
 from ...path.path import Contour, Path
 from ..failure import NoSolid
@@ -25,10 +25,21 @@ STEEPEST = 89.0
 
 @drawn_solid.register
 def solid_of_extrude(node: Extrude, tolerance: float) -> Manifold:
-    section = section_of(node.children[0], _fine(node, tolerance))
+    height, below = float(node.height), float(node.below)
+    (outline,) = node.children
+    if isinstance(outline, Lettering) and not (node.bevel or node.taper or node.twist or node.top_scale != 1.0):
+        from .letters import extruded_letters
+
+        letters = extruded_letters(outline, _fine(node, tolerance), height + below)
+        if letters is not None:
+            lift = -0.5 * (height + below) if node.centred else -below
+            return (letters.translate((0.0, 0.0, lift)) if lift else letters).as_original()
+    section = section_of(outline, _fine(node, tolerance))
     if section.is_empty():
         raise NoSolid("Extrusion: the outline encloses nothing")
-    height, below = float(node.height), float(node.below)
+    if node.bevel:
+        solid = _bevelled(node, section, height, below)
+        return solid.translate((0.0, 0.0, 0.5 * (below - height))) if node.centred else solid
     solid = _risen(node, section, height, 1.0, tolerance)
     if below > 0.0:
         if node.taper or node.twist or node.top_scale != 1.0:
@@ -39,6 +50,16 @@ def solid_of_extrude(node: Extrude, tolerance: float) -> Manifold:
     if node.centred:
         solid = solid.translate((0.0, 0.0, 0.5 * (below - height)))
     return solid.as_original()
+
+
+def _bevelled(node: Extrude, section: CrossSection, height: float, below: float) -> Manifold:
+    bevel = float(node.bevel)
+    if node.taper or node.twist or node.top_scale != 1.0:
+        raise NoSolid("Extrusion: a bevel goes with no taper, twist or top scale: set these to 0, 0 and 1")
+    if bevel > height:
+        raise NoSolid(f"Extrusion: a bevel of {bevel:g} mm is larger than the height, {height:g} mm")
+    upright = height - bevel + below
+    return tapered(section, bevel, 1.0, upright).translate((0.0, 0.0, -below)).as_original()
 
 
 def _risen(node: Extrude, section: CrossSection, height: float, share: float, tolerance: float) -> Manifold:

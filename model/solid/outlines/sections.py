@@ -8,8 +8,9 @@ from numpy.typing import NDArray
 
 from ...document.errors import Refusal
 from ...document.nodes import Broken, Difference, Intersection, LinearArray, Mirror, Node, PolarArray, range_fault
-from ...document.outlines import Circle, Lettering
+from ...document.outlines import Circle, Lettering, Stencil, TextOnPath
 from ...outline.paths import own_path
+from ...outline.stencil import stencilled
 from ...path.flatten import flatten
 from ...path.path import Path
 from ..copies import copies
@@ -33,14 +34,15 @@ def section_of(node: Node, tolerance: float) -> CrossSection:
     stack: list[tuple[Node, float, bool]] = [(node, placed_tolerance(tolerance, node.placement), False)]
     while stack:
         here, fine, ready = stack.pop()
+        children = () if isinstance(here, TextOnPath) else here.children  # of which one may be open
         if not ready:
             stack.append((here, fine, True))
-            stack += [(child, placed_tolerance(fine, child.placement), False) for child in reversed(here.children)]
+            stack += [(child, placed_tolerance(fine, child.placement), False) for child in reversed(children)]
             continue
         fault = here.message if isinstance(here, Broken) else range_fault(here)
         if fault:
             raise NoSolid(fault)
-        size = len(here.children)
+        size = len(children)
         below = made[len(made) - size :]
         del made[len(made) - size :]
         made.append(_placed(_joined(here, below) if size else _own(here, fine), here))
@@ -82,6 +84,10 @@ def _own(node: Node, tolerance: float) -> CrossSection:
             from ...lettering.lettering import rings_of_lettering
 
             return _filled(rings_of_lettering(node, tolerance, MOST_POINTS), "nonzero")
+        if isinstance(node, TextOnPath):
+            from ...lettering.along import rings_along
+
+            return _filled(rings_along(node, tolerance, MOST_POINTS), "nonzero")
         return area_of(own_path(node), tolerance)
     except (NoSolid, Refusal) as fault:
         words = str(fault)
@@ -89,6 +95,8 @@ def _own(node: Node, tolerance: float) -> CrossSection:
 
 
 def _joined(node: Node, sections: list[CrossSection]) -> CrossSection:
+    if isinstance(node, Stencil):
+        return stencilled(sections[0], node)
     if isinstance(node, (LinearArray, PolarArray, Mirror)):
         maps = [_flat(matrix, node) for matrix in copies(node)]
         sections = [_moved(section, matrix, node) for matrix in maps for section in sections]

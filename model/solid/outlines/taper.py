@@ -1,6 +1,7 @@
 """Outlines drawn up with leaning walls: the roof over the straight skeleton, cut off at the height.
 
-Each side of the outline makes one flat wall, whatever the corners beside it do on the way up.
+Each side of the outline makes one flat wall, whatever the corners beside it do on the way up; and an upright one below
+it, where the roof stands on walls.
 """
 
 from __future__ import annotations
@@ -23,10 +24,11 @@ MOVED = (0.0, 1e-7, 1e-6, 1e-6, 1e-5, 1e-5)
 in a ring whose walls meet all around, happens in some order."""
 
 
-def tapered(section: CrossSection, height: float, slope: float) -> Manifold:
+def tapered(section: CrossSection, height: float, slope: float, upright: float = 0.0) -> Manifold:
     """The solid over a section whose walls move inwards by `slope` mm for each mm of the height; outwards below 0.
 
-    It ends below the height where the walls have met everywhere. Raises NoSolid.
+    `upright` is how high the walls stand straight before they lean, which comes to the height. It ends below that
+    where the walls have met everywhere. All in mm; the section lies at z = 0. Raises NoSolid.
     """
     size = float(np.ptp(np.reshape(section.bounds(), (2, 2)), axis=0).max())
     rings = _rings(section, size)
@@ -34,13 +36,14 @@ def tapered(section: CrossSection, height: float, slope: float) -> Manifold:
         raise NoSolid("Extrusion: the outline encloses nothing")
     random = np.random.default_rng(0)
     for moved in MOVED:
-        solid = _roof([ring + random.uniform(-moved, moved, ring.shape) * size for ring in rings], height, slope)
+        shaken = [ring + random.uniform(-moved, moved, ring.shape) * size for ring in rings]
+        solid = _roof(shaken, height, slope, upright)
         if solid is not None:
             return solid
-    raise NoSolid("Extrusion: the outline is too intricate for a taper: give it a coarser tolerance")
+    raise NoSolid("Extrusion: the outline is too intricate for leaning walls: give it a coarser tolerance")
 
 
-def _roof(rings: list[Floats], height: float, slope: float) -> Manifold | None:
+def _roof(rings: list[Floats], height: float, slope: float, upright: float) -> Manifold | None:
     """The solid, or None where so much happens at once that rounding has taken it in the wrong order."""
     side, end = np.sign(slope) or 1.0, abs(slope) * height
     wave = Wavefront(rings, side)
@@ -60,7 +63,17 @@ def _roof(rings: list[Floats], height: float, slope: float) -> Manifold | None:
     if covered[covered < 0.0].sum() < -slack:
         return None
     floor = np.asarray(triangulate(rings, 0.0), np.int64)[:, ::-1]
-    solid = Manifold(Mesh64(nodes, np.concatenate([floor, walls, *_lid(wave, nodes)]).astype(np.uint64)))
+    faces = [walls, *_lid(wave, nodes)]
+    if upright:
+        foot = np.arange(len(wave.along))  # the corners of the rings are the first nodes
+        floor_nodes = nodes[foot]
+        nodes[:, 2] += upright
+        nodes = np.concatenate([nodes, floor_nodes])
+        low, after = foot + len(nodes) - len(foot), _followers(rings)
+        faces += [np.column_stack((low, low[after], after)), np.column_stack((low, after, foot)), floor + low[0]]
+    else:
+        faces.append(floor)
+    solid = Manifold(Mesh64(nodes, np.concatenate(faces).astype(np.uint64)))
     return solid if solid.status() == Error.NoError and solid.volume() > 0.0 else None
 
 
@@ -73,6 +86,14 @@ def _rings(section: CrossSection, size: float) -> list[Floats]:
         if len(ring) >= 3:
             found.append(ring)
     return found
+
+
+def _followers(rings: list[Floats]) -> NDArray[np.int64]:
+    """(k,) the number of the corner after each, of all the rings' in a row."""
+    ends = np.cumsum([len(ring) for ring in rings])
+    after = np.arange(1, ends[-1] + 1)
+    after[ends - 1] = np.append(0, ends[:-1])
+    return after
 
 
 def _area(ring: Floats) -> float:

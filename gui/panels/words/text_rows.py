@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QObject, Qt
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QFocusEvent, QKeyEvent
-from PySide6.QtWidgets import QComboBox, QCompleter, QPlainTextEdit, QWidget
+from PySide6.QtWidgets import QComboBox, QPlainTextEdit, QWidget
 
-from ...model.document.fields import FieldSpec
-from ...model.document.nodes import Node
-from .property_edit import field_edit
-from .text_line import TextLine
+from ....model.document.fields import FieldSpec
+from ....model.document.nodes import Node
+from ..property_edit import field_edit
+from ..text_line import TextLine
 
 if TYPE_CHECKING:
-    from .form import Form
+    from ..form import Form
 
 MOST_LINES = 8
 WORDS = {"ltr": "left to right", "rtl": "right to left"}
@@ -24,7 +24,7 @@ def text_row(form: Form, node_id: str, spec: FieldSpec) -> QWidget:
     """The widget for a field of words, which shows and changes it."""
     if spec.type == "choice":
         return ChoiceRow(form, node_id, spec)
-    return {"lines": LinesRow, "font": FontRow, "line": LineRow}[spec.editor](form, node_id, spec)
+    return (LinesRow if spec.editor == "lines" else LineRow)(form, node_id, spec)
 
 
 class LinesRow(QPlainTextEdit):
@@ -109,58 +109,3 @@ class ChoiceRow(QComboBox):
             self.addItem(WORDS.get(option, option).capitalize(), option)
         self.activated.connect(lambda: form.tell(edit.commit(self.currentData())))
         form.rows.append(lambda node, values: self.setCurrentIndex(self.findData(getattr(node, spec.name))))
-
-
-class FontRow(QComboBox):
-    """A font by its name, chosen from the list or typed; the list is read when it is first needed."""
-
-    def __init__(self, form: Form, node_id: str, spec: FieldSpec) -> None:
-        super().__init__(form)
-        self._edit, self._name, self._form = field_edit(form.session, node_id, spec), spec.name, form
-        self._now = ""
-        self.setObjectName(spec.name)
-        self.setAccessibleName(spec.label)
-        self.setEditable(True)
-        self.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.setMinimumContentsLength(12)
-        self._line = TextLine(parent=self)
-        self.setLineEdit(self._line)
-        self._line.installEventFilter(self)
-        self.activated.connect(self._keep)
-        self._line.editingFinished.connect(self._keep)
-        form.rows.append(self._refresh)
-
-    def _refresh(self, node: Node, values: dict[str, float]) -> None:
-        self._now = str(getattr(node, self._name))
-        if not (self._line.hasFocus() and self._line.isModified()) and self._line.text() != self._now:
-            self.setEditText(self._now)
-
-    def _keep(self) -> None:
-        self._line.setModified(False)
-        if self.currentText() != self._now:
-            self._form.tell(self._edit.commit(self.currentText()))
-
-    def _list(self) -> None:
-        if self.count():
-            return
-        from ...model.lettering.library import installed
-
-        text = self.currentText()
-        self.blockSignals(True)
-        self.addItems([face.name for face in installed()])
-        self.setEditText(text)
-        self.blockSignals(False)
-        completer = self.completer()
-        if completer is not None:
-            completer.setCompletionMode(QCompleter.CompletionMode.PopupCompletion)
-            completer.setFilterMode(Qt.MatchFlag.MatchContains)
-
-    def showPopup(self) -> None:
-        self._list()
-        super().showPopup()
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        if event.type() == QEvent.Type.FocusIn:
-            self._list()
-        return super().eventFilter(watched, event)
