@@ -202,6 +202,7 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
         ("bsp", "bsp", "add_options", "bsp", "the BSP tree that hidden surfaces are sorted by: its figures as JSON"),
         ("diagram", "diagram", "add_options", "diagram", "the CSG diagram of the tree as SVG"),
         ("font", "font", "add_options", "font", "a font's facts, a glyph, or a text as outlines, as JSON"),
+        ("bitmap", "bitmap", "add_options", "bitmap", "a bitmap's header as JSON, its pixels as PNG"),
         ("run", "run", "add_options", "run", "run a script with the names of solidtree.model.script at hand"),
     )
 }  # fmt: skip
