@@ -5,12 +5,14 @@ import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QDialogButtonBox, QFileDialog, QWidget
 
 from solidtree.gui.lettering.glyph_model import EDITED, NAME
+from solidtree.gui.lettering.save_font import SaveFont
 from solidtree.model.document.table import same_document
 from solidtree.model.lettering.edited_face import touched
 from solidtree.model.lettering.in_document import face_in
+from solidtree.model.lettering.opening import read_font
 from solidtree.model.script import document_of, extrude, lettering
 
 pytest_plugins = ["window_driver"]
@@ -225,3 +227,49 @@ def test_a_font_that_is_gone_is_told(opened):
     assert window.glyphs.count.text() == "0 glyphs"
     window.show_font(DIDOT)
     assert window.desk.drawn is not None
+
+
+def test_the_edited_font_is_saved_under_another_name(opened, tmp_path):
+    driver, window = opened()
+    drag(window.canvas, window.canvas.to_screen(*node(window, 0, 0)), window.canvas.to_screen(10, -50))
+    edited = window.desk.drawn
+    driver.keys("Ctrl+S", window.canvas)
+    dialog = window.findChild(SaveFont)
+    assert dialog.family.text() == "Edited Letters" and dialog.form.currentData() == "otf"
+    save = dialog.findChild(QDialogButtonBox).button(QDialogButtonBox.StandardButton.Save)
+    dialog.family.setText("GFS Didot Bold")
+    QTest.mouseClick(save, LEFT)
+    assert dialog.findChild(QFileDialog) is None and "reserves the name “GFS Didot”" in dialog.fault.text()
+    dialog.family.setText("Sculpted")
+    QTest.mouseClick(save, LEFT)
+    asking = dialog.findChild(QFileDialog)
+    asking.fileSelected.emit(str(tmp_path / "sculpted.otf"))
+    driver.qtbot.waitUntil(lambda: "is written and read back" in window.statusBar().currentMessage(), timeout=20000)
+    face = read_font(tmp_path / "sculpted.otf")
+    assert face.family == "Sculpted" and face.advance("I") == edited.advance
+    assert abs(face.outline("I").area() - edited.outline.area()) < edited.outline.length()
+
+
+def test_a_glyph_becomes_a_path_of_the_document(opened):
+    driver, window = opened()
+    window.actions_.run("glyph_to_path")
+    (path,) = driver.document.profiles
+    assert path.name == "I" and len(path.points) == sum(
+        len(contour.points) - 1 for contour in window.desk.drawn.outline.contours
+    )
+    assert max(y for _, y in path.points) == pytest.approx(0.01 * window.desk.drawn.outline.bounds()[1, 1])
+
+
+def test_a_font_is_carried_and_released_by_the_menu(make_window):
+    driver = make_window(document_of(lettering("Ill", 20, DIDOT)))
+    actions, start = driver.window.actions_, driver.document
+    assert actions.fault("carry_font") == "select lettering in one font first"
+    driver.session.select([driver.document.profiles[0].id])
+    assert actions.fault("release_font") == f"the project carries no “{DIDOT}”"
+    actions.run("carry_font")
+    assert driver.document.fonts[0].asset and actions.fault("carry_font")
+    actions.run("release_font")
+    assert driver.document.fonts == () and actions.fault("carry_font") is None
+    driver.keys("Ctrl+Z", driver.window.viewport)
+    driver.keys("Ctrl+Z", driver.window.viewport)
+    assert driver.document is start

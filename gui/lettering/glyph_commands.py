@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from ...model.document.errors import Refusal
 from ...model.editing.commands import Command, done
 from ...model.path.path import Kind, Node, Path
 from . import glyph_edits
@@ -13,6 +14,8 @@ from .glyph_desk import Place
 if TYPE_CHECKING:
     from .font_window import FontWindow
 
+EM = 10.0
+"""mm"""
 Fault = Callable[["FontWindow"], str | None]
 Edit = Callable[[Path, frozenset[Place]], Path]
 
@@ -48,6 +51,18 @@ def _segment(name: str, title: str, kind: Kind, keys: str, tip: str) -> Command:
                    tip)  # fmt: skip
 
 
+def _to_path(window: FontWindow) -> None:
+    from ...model.document.outlines import Path as PathNode
+    from ...model.outline.paths import fields_of
+
+    drawn, face = window.desk.drawn, window.desk.face
+    if drawn is None or face is None or not drawn.outline.contours:
+        raise Refusal("this glyph is empty")
+    scale = EM / face.units_per_em
+    outline = drawn.outline.transformed(((scale, 0.0, 0.0), (0.0, scale, 0.0)))
+    window.desk.session.do("insert", PathNode(**fields_of(outline)).named(window.desk.glyph), label="Glyph as path")
+
+
 def _no_edits(window: FontWindow) -> str | None:
     return None if window.desk.edited else "no glyph of this font is edited"
 
@@ -76,6 +91,8 @@ GLYPH_COMMANDS: tuple[Command, ...] = (
     Command("glyph_all", "Choose all nodes", "Glyph", lambda w: w.canvas.choose_all(), _chosen(0), "",
             "select_all", "Choose all nodes of the glyph; on the canvas by Ctrl+A"),
     Command("glyph_fit", "Fit", "Glyph", lambda w: w.canvas.fit(), _chosen(0), "F", "fit", "Show the whole glyph"),
+    Command("glyph_to_path", "Glyph as path", "Glyph", _to_path, _chosen(0), "", "convert_to_path",
+            "Put the glyph into the document as a path of its own, of a size of 10 mm to the em"),
     Command("glyph_save_font", "Save font …", "Glyph", lambda w: w.save(),
             lambda w: None if w.desk.face is not None else "choose a font first", "Ctrl+S", "save_font",
             "Write the font with its edited glyphs as a TTF, OTF or PFB file"),
@@ -86,4 +103,4 @@ NODE_ROWS = (
     ("glyph_cusp", "glyph_smooth", "glyph_symmetric", "", "glyph_line", "glyph_quad", "glyph_cubic"),
     ("glyph_insert", "glyph_delete", "", "glyph_reverse"),
 )
-TOOL_BAR = ("glyph_undo", "glyph_redo", "", "glyph_fit", "", "glyph_save_font", "glyph_reset_all")
+TOOL_BAR = ("glyph_undo", "glyph_redo", "", "glyph_fit", "", "glyph_to_path", "glyph_save_font", "glyph_reset_all")

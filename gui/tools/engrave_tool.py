@@ -6,20 +6,17 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
-from PySide6.QtGui import QKeyEvent
 
 from ...model.document.errors import Refusal
 from ...model.document.tree import find
 from ...model.editing.session import Session, State
 from ...model.operations.operations import OPERATIONS
 from ..view.viewport import Viewport
-from .click_tool import ClickTool
+from .face_tool import FaceTool
 
 if TYPE_CHECKING:
     from ...model.document.document import Document
     from ...model.document.placement import Placement
-    from ...render.handles.face_mark import FaceMark
-    from ...render.viewer import Viewer
 
 CATCH = 12.0
 """Logical pixels within which a flat face's centre draws the outline to it."""
@@ -36,18 +33,14 @@ class Spot:
     radius: float | None
 
 
-class EngraveTool(ClickTool):
-    """Does nothing until `start`. `said` tells what to do, "" at the end."""
+class EngraveTool(FaceTool):
+    """Does nothing until `start`."""
 
-    said = Signal(str)
     refused = Signal(str)
-    began = Signal()
-    ended = Signal()
 
     def __init__(self, session: Session, viewport: Viewport, parent: QObject | None = None) -> None:
         super().__init__(viewport, parent)
         self._session = session
-        self._mark: FaceMark | None = None
         self._outline, self._label = "", ""
         self._document: Document | None = None
         self._previewed: Document | None = None
@@ -87,26 +80,6 @@ class EngraveTool(ClickTool):
         self.said.emit(f"Click the face where “{self._label}” should {does}; Escape ends this")
 
     # Events.
-
-    def attached(self, viewer: Viewer) -> None:
-        from ...render.handles.face_mark import FaceMark
-
-        super().attached(viewer)
-        self._mark = FaceMark(viewer)
-
-    def closing(self) -> None:
-        self.end()
-        super().closing()
-        self._mark = None
-
-    def takes_clicks(self) -> bool:
-        return self.active
-
-    def key(self, event: QKeyEvent) -> bool:
-        if not self.active or event.key() != Qt.Key.Key_Escape:
-            return False
-        self.end()
-        return True
 
     def session_changed(self, before: State, after: State) -> None:
         if self._document is None:
@@ -191,11 +164,6 @@ class EngraveTool(ClickTool):
             return None
         x, y, _ = project(self._viewer.camera, [centre], self._viewer.size)[0]
         return centre if abs(x - position.x()) + abs(y - position.y()) <= CATCH else None
-
-    def _show(self, mesh: object = None, face: object = None) -> None:
-        if self._mark is not None:
-            self._mark.show(mesh, face)  # type: ignore[arg-type]
-            self._viewport.refresh()
 
 
 def _on_plane(point: tuple[float, float, float], normal: tuple[float, float, float]) -> Placement:

@@ -2,42 +2,35 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
-from PySide6.QtGui import QKeyEvent
 
-from ...tools.click_tool import ClickTool
+from ...tools.face_tool import FaceTool
 from ...view.viewport import Viewport
 from .work_plane import WorkPlane
-
-if TYPE_CHECKING:
-    from ....render.handles.face_mark import FaceMark
-    from ....render.viewer import Viewer
 
 WANTED = "Click the flat face to draw on; Escape ends this"
 CURVED = "This face is curved: click a flat one to draw on"
 
 
-class FacePlaneTool(ClickTool):
-    """Does nothing until `start`. `said` tells what to do, "" at the end; `taken` that the work plane is a face's."""
+class FacePlaneTool(FaceTool):
+    """Does nothing until `start`. `taken` tells that the work plane is a face's."""
 
-    said = Signal(str)
-    began = Signal()
-    ended = Signal()
     taken = Signal()
 
     def __init__(self, viewport: Viewport, plane: WorkPlane, parent: QObject | None = None) -> None:
         super().__init__(viewport, parent)
         self._plane = plane
-        self._mark: FaceMark | None = None
-        self.active = False
+        self._waiting = False
         self.resumed = ""
         """The drawing tool that goes on afterwards."""
 
+    @property
+    def active(self) -> bool:
+        return self._waiting
+
     def start(self) -> None:
         if not self.active:
-            self.active = True
+            self._waiting = True
             self.began.emit()
             self._viewport.setCursor(Qt.CursorShape.CrossCursor)
         self._viewport.setFocus()
@@ -45,45 +38,24 @@ class FacePlaneTool(ClickTool):
 
     def end(self) -> None:
         if self.active:
-            self.active = False
+            self._waiting = False
             self.drop_press()
-            self._hide()
+            self._show()
             self._viewport.unsetCursor()
             self.said.emit("")
             self.ended.emit()
-
-    def attached(self, viewer: Viewer) -> None:
-        from ....render.handles.face_mark import FaceMark
-
-        super().attached(viewer)
-        self._mark = FaceMark(viewer)
-
-    def closing(self) -> None:
-        self.end()
-        super().closing()
-        self._mark = None
-
-    def takes_clicks(self) -> bool:
-        return self.active
-
-    def key(self, event: QKeyEvent) -> bool:
-        if not self.active or event.key() != Qt.Key.Key_Escape:
-            return False
-        self.end()
-        return True
 
     def pointed(self, position: QPointF | None) -> None:
         from ....model.measuring.landmarks import curved, face_at
 
         pick = None if position is None or self._viewer is None else self._viewer.pick(position.x(), position.y())
-        if pick is None or pick.triangle < 0 or self._viewer is None or self._mark is None:
-            self._hide()
+        if pick is None or pick.triangle < 0 or self._viewer is None:
+            self._show()
             return
         mesh = self._viewer.scene.meshes[pick.solid_id]
         bent = curved(mesh, pick.triangle)
-        self._mark.show(*((None, None) if bent else (mesh, face_at(mesh, pick.triangle))))
+        self._show(*((None, None) if bent else (mesh, face_at(mesh, pick.triangle))))
         self.said.emit(CURVED if bent else WANTED)
-        self._viewport.refresh()
 
     def clicked(self, position: QPointF) -> None:
         from ....model.document.placement import IDENTITY
@@ -106,8 +78,3 @@ class FacePlaneTool(ClickTool):
         self.end()
         self._plane.on_face(point, normal)
         self.taken.emit()
-
-    def _hide(self) -> None:
-        if self._mark is not None:
-            self._mark.show()
-            self._viewport.refresh()
