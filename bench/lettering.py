@@ -12,8 +12,8 @@ import numpy as np
 import uharfbuzz
 from manifold3d import CrossSection, FillRule, Manifold
 
+from solidtree.model.lettering.fonts.library import face_of
 from solidtree.model.lettering.lettering import path_of_lettering
-from solidtree.model.lettering.library import face_of
 from solidtree.model.path.flatten import flatten
 from solidtree.model.script import extrude, lettering
 from solidtree.model.solid.evaluate import Evaluator

@@ -14,8 +14,8 @@ from fontTools.ttLib import TTFont
 from fontTools.varLib import instancer
 
 from solidtree.model.document.errors import Refusal
-from solidtree.model.lettering.opening import LARGEST, open_face, read_font
-from solidtree.model.lettering.outline_pen import OutlinePen
+from solidtree.model.lettering.fonts.opening import LARGEST, open_face, read_font
+from solidtree.model.lettering.fonts.outline_pen import OutlinePen
 from solidtree.model.lettering.shaping import set_line
 
 BUNDLED = Path(str(files("solidtree.resources"))) / "fonts"

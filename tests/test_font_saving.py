@@ -14,9 +14,9 @@ from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTFont
 
 from solidtree.model.document.errors import Refusal
-from solidtree.model.lettering.changing import changed_glyphs, characters_in, font_data
-from solidtree.model.lettering.drawn_glyph import DrawnGlyph
-from solidtree.model.lettering.opening import open_face
+from solidtree.model.lettering.fonts.changing import changed_glyphs, characters_in, font_data
+from solidtree.model.lettering.fonts.drawn_glyph import DrawnGlyph
+from solidtree.model.lettering.fonts.opening import open_face
 from solidtree.model.lettering.saving.naming import check_family, proposed_family, reserved_names
 from solidtree.model.lettering.saving.saving import saved_font
 from solidtree.model.path.flatten import flatten

@@ -11,8 +11,8 @@ import uharfbuzz as hb
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.lettering.bidi import levels_of, visual_order
+from solidtree.model.lettering.fonts.library import face_of, fallbacks, find, installed
 from solidtree.model.lettering.layout import Style, lay_out
-from solidtree.model.lettering.library import face_of, fallbacks, find, installed
 from solidtree.model.lettering.shaping import set_line
 from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.path.path import Path as Curves

@@ -14,12 +14,12 @@ from solidtree.model.document.project_font import ProjectFont
 from solidtree.model.document.resolve import Resolver, resolve
 from solidtree.model.document.table import from_table, same_document, to_table
 from solidtree.model.editing.session import Session
-from solidtree.model.lettering.drawn_glyph import DrawnGlyph
-from solidtree.model.lettering.edited_face import glyph_fields, glyphs_as_bytes, touched
-from solidtree.model.lettering.face import Run
-from solidtree.model.lettering.in_document import face_in
+from solidtree.model.lettering.fonts.drawn_glyph import DrawnGlyph
+from solidtree.model.lettering.fonts.edited_face import glyph_fields, glyphs_as_bytes, touched
+from solidtree.model.lettering.fonts.face import Run
+from solidtree.model.lettering.fonts.in_document import face_in
+from solidtree.model.lettering.fonts.library import face_of, find, version_of
 from solidtree.model.lettering.lettering import path_of_lettering, remarks_on
-from solidtree.model.lettering.library import face_of, find, version_of
 from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.path.shapes import rectangle as rectangle_path
 from solidtree.model.project.assets import AssetStore, assets_of, default_store

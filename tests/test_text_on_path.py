@@ -11,8 +11,8 @@ from solidtree.model.document.outlines import is_outline
 from solidtree.model.document.placement import Placement
 from solidtree.model.document.resolve import resolve
 from solidtree.model.document.tree import numbered
+from solidtree.model.lettering.fonts.library import face_of
 from solidtree.model.lettering.layout import Style, lay_out
-from solidtree.model.lettering.library import face_of
 from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.outline.paths import path_of
 from solidtree.model.script import (

@@ -10,9 +10,9 @@ from PySide6.QtWidgets import QDialogButtonBox, QFileDialog, QWidget
 from solidtree.gui.lettering.glyph_model import EDITED, NAME
 from solidtree.gui.lettering.save_font import SaveFont
 from solidtree.model.document.table import same_document
-from solidtree.model.lettering.edited_face import touched
-from solidtree.model.lettering.in_document import face_in
-from solidtree.model.lettering.opening import read_font
+from solidtree.model.lettering.fonts.edited_face import touched
+from solidtree.model.lettering.fonts.in_document import face_in
+from solidtree.model.lettering.fonts.opening import read_font
 from solidtree.model.script import document_of, extrude, lettering
 
 pytest_plugins = ["window_driver"]

@@ -10,10 +10,10 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QPen, QTransform
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QListWidget, QListWidgetItem, QScrollArea, QVBoxLayout, QWidget
 
 from ...model.document.errors import Refusal
-from ...model.lettering.drawn_glyph import DrawnGlyph
-from ...model.lettering.face import Face
-from ...model.lettering.in_document import face_in
-from ...model.lettering.library import BUNDLED, installed
+from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
+from ...model.lettering.fonts.face import Face
+from ...model.lettering.fonts.in_document import face_in
+from ...model.lettering.fonts.library import BUNDLED, installed
 from ...model.path.nodes import inferred
 from ...model.path.path import Kind, Path
 from ..panels.text_line import TextLine

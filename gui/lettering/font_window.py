@@ -160,7 +160,7 @@ class FontWindow(QMainWindow):
         self.statusBar().setSizeGripEnabled(False)
 
     def _font(self) -> None:
-        from ...model.lettering.library import installed
+        from ...model.lettering.fonts.library import installed
 
         names = list(dict.fromkeys([self.desk.font, *self.desk.fonts()]))
         self.fonts.clear()

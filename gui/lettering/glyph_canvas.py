@@ -22,7 +22,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from ...model.document.errors import Refusal
-from ...model.lettering.drawn_glyph import DrawnGlyph
+from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
 from ...model.path.nodes import move_handle
 from ...model.path.path import Path
 from ..theme import colours_now

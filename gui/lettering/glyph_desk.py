@@ -14,11 +14,11 @@ from ...model.document.outlines import Lettering
 from ...model.document.project_font import font_key, font_named
 from ...model.document.tree import walk
 from ...model.editing.session import Session, State
-from ...model.lettering.drawn_glyph import DrawnGlyph
-from ...model.lettering.edited_face import EditedFace, glyph_fields
-from ...model.lettering.face import Face
-from ...model.lettering.in_document import face_in
-from ...model.lettering.library import STANDARD, find
+from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
+from ...model.lettering.fonts.edited_face import EditedFace, glyph_fields
+from ...model.lettering.fonts.face import Face
+from ...model.lettering.fonts.in_document import face_in
+from ...model.lettering.fonts.library import STANDARD, find
 from ...model.path.nodes import inferred
 from ...model.path.path import Path
 

@@ -9,8 +9,8 @@ from PySide6.QtCore import QAbstractListModel, QModelIndex, QObject, QPersistent
 from PySide6.QtGui import QPainterPath
 
 from ...model.document.errors import Refusal
-from ...model.lettering.edited_face import touched
-from ...model.lettering.face import Face
+from ...model.lettering.fonts.edited_face import touched
+from ...model.lettering.fonts.face import Face
 from .glyph_paths import painter_path
 
 ALL = "All blocks"

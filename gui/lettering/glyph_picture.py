@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QTransform
 
-from ...model.lettering.drawn_glyph import DrawnGlyph
-from ...model.lettering.face import Face
+from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
+from ...model.lettering.fonts.face import Face
 from ...model.path.nodes import handles
 from ...model.path.path import Contour, Kind, Node, Path
 from ..theme import Colours

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QFrame, QGridLayout, QHBoxLayout, QLabe
 
 from ...model.document.errors import Refusal
 from ...model.document.expression import Expression, number
-from ...model.lettering.drawn_glyph import DrawnGlyph
+from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
 from ..panels.number_field import NumberField, Steps
 from . import glyph_edits
 from .glyph_canvas import GlyphCanvas

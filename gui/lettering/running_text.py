@@ -7,9 +7,9 @@ from PySide6.QtGui import QColor, QPainter, QPaintEvent, QTransform
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from ...model.document.errors import Refusal
-from ...model.lettering.face import Face
+from ...model.lettering.fonts.face import Face
+from ...model.lettering.fonts.library import fallbacks
 from ...model.lettering.layout import Style, lay_out
-from ...model.lettering.library import fallbacks
 from ..panels.text_line import TextLine
 from ..theme import colours_now
 from .glyph_desk import GlyphDesk

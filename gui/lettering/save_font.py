@@ -29,7 +29,7 @@ def ask_save_font(window: FontWindow) -> None:
     if face is None:
         return
     try:
-        from ...model.lettering.in_document import file_of
+        from ...model.lettering.fonts.in_document import file_of
         from ...model.lettering.saving.naming import proposed_family
 
         proposed = proposed_family(*file_of(window.desk.session.document, window.desk.font)[:2])
@@ -91,7 +91,7 @@ class SaveFont(QDialog):
 
     def _place(self) -> None:
         """Ask where to, once the name will do."""
-        from ...model.lettering.in_document import file_of
+        from ...model.lettering.fonts.in_document import file_of
         from ...model.lettering.saving.naming import check_family
 
         desk, family = self._window.desk, self.family.text()
@@ -115,8 +115,8 @@ class SaveFont(QDialog):
         dialog.open()
 
     def _write(self, path: Path, family: str, form: str) -> None:
-        from ...model.lettering.changing import write_changed_font
-        from ...model.lettering.in_document import file_of
+        from ...model.lettering.fonts.changing import write_changed_font
+        from ...model.lettering.fonts.in_document import file_of
 
         window, desk = self._window, self._window.desk
         document, font = desk.session.document, desk.font

@@ -35,9 +35,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
 
 def font(options: argparse.Namespace) -> int:
     """Tell; the status is 1 where the font has no glyph for a character."""
+    from ...model.lettering.fonts.opening import face_count, font_bytes, open_face
     from ...model.lettering.layout import Style
     from ...model.lettering.lettering import features_of, location_of
-    from ...model.lettering.opening import face_count, font_bytes, open_face
     from ...model.lettering.report import facts_of, glyph_of, text_of
 
     data = font_bytes(options.file)
@@ -66,7 +66,7 @@ def font(options: argparse.Namespace) -> int:
 
 
 def _save(options: argparse.Namespace, data: bytes) -> int:
-    from ...model.lettering.changing import write_changed_font
+    from ...model.lettering.fonts.changing import write_changed_font
 
     remarks = write_changed_font(
         data,

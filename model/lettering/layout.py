@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..document.errors import Refusal
 from ..document.outlines import ALIGNMENTS, ANCHORS, DIRECTIONS
-from .face import DEFAULT, Face, Location
+from .fonts.face import DEFAULT, Face, Location
 from .runs import missing_in
 from .shaping import Set, set_line
 

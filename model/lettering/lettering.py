@@ -15,9 +15,9 @@ from ..document.errors import Refusal
 from ..document.outlines import Lettering
 from ..path.path import Contour, Path
 from ..project.assets import default_store
-from .face import Face
+from .fonts.face import Face
+from .fonts.library import face_of, fallbacks, version_of
 from .layout import Laid, Layout, Style, lay_out
-from .library import face_of, fallbacks, version_of
 from .runs import missing_in
 
 LONGEST = 20_000

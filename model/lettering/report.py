@@ -9,7 +9,7 @@ import numpy as np
 
 from ..document.errors import Refusal
 from ..path.path import WORDS, Contour, Kind
-from .face import Face
+from .fonts.face import Face
 from .layout import Style, lay_out
 
 

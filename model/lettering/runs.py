@@ -10,7 +10,7 @@ from itertools import groupby
 from fontTools import unicodedata as scripts
 
 from .bidi import levels_of, visual_order
-from .face import Face
+from .fonts.face import Face
 
 NEUTRAL = ("Zyyy", "Zinh", "Zzzz")
 """Scripts of characters that go with their neighbours: common, inherited, unknown."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from .face import DEFAULT, Face, Location, Run
+from .fonts.face import DEFAULT, Face, Location, Run
 from .runs import pieces_of
 
 

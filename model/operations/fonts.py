@@ -17,8 +17,8 @@ from ..document.project_font import ProjectFont, font_key, font_named
 from ..document.tree import change_each, unique_name, walk
 
 if TYPE_CHECKING:
-    from ..lettering.drawn_glyph import DrawnGlyph
-    from ..lettering.face import Face
+    from ..lettering.fonts.drawn_glyph import DrawnGlyph
+    from ..lettering.fonts.face import Face
 
 FINE = 5e-4
 """Share of the em within which a glyph's outline is grown."""
@@ -35,7 +35,7 @@ def carry_font(document: Document, font: str) -> Document:
 
 def release_font(document: Document, font: str) -> Document:
     """Leave a font's file, and what has been edited of it, out of the project: the name is an installed font's."""
-    from ..lettering.library import find
+    from ..lettering.fonts.library import find
 
     known = _known(document, font)
     if find(known.name) is None and any(font_key(name) == font_key(known.name) for name in _used(document)):
@@ -45,7 +45,7 @@ def release_font(document: Document, font: str) -> Document:
 
 def copy_font(document: Document, font: str, name: str) -> Document:
     """Another font of the project, called `name`, with the glyphs that `font` has now: to be edited by itself."""
-    from ..lettering.library import find
+    from ..lettering.fonts.library import find
 
     plain = " ".join(str(name).split())
     if font_named(document.fonts, plain) is not None or find(plain) is not None:
@@ -58,7 +58,7 @@ def edit_glyphs(document: Document, font: str, glyphs: Mapping[str, Mapping[str,
 
     Each has `advance`, `points`, `segments` and `joints`, as a path's, in font units. Lettering in this font follows.
     """
-    from ..lettering.edited_face import drawn_glyph
+    from ..lettering.fonts.edited_face import drawn_glyph
 
     if not isinstance(glyphs, Mapping):
         raise Refusal(f"glyphs by their names are needed, not {glyphs!r:.60}")
@@ -76,8 +76,8 @@ def transform_glyphs(
 
     Widths go with the map's scale along x, and side bearings stay as the outlines grow.
     """
-    from ..lettering.edited_face import transformed
-    from ..lettering.in_document import face_in
+    from ..lettering.fonts.edited_face import transformed
+    from ..lettering.fonts.in_document import face_in
 
     try:
         affine = np.array(matrix, float)
@@ -99,7 +99,7 @@ def transform_glyphs(
 
 def reset_glyphs(document: Document, font: str, glyphs: Sequence[str] | str | None = None) -> Document:
     """Give glyphs, by their names, the shapes that the font's file has; None: all."""
-    from ..lettering.in_document import drawn_of
+    from ..lettering.fonts.in_document import drawn_of
 
     known = _known(document, font)
     drawn = drawn_of(known)
@@ -127,8 +127,8 @@ def with_fonts_of(document: Document, other: Document) -> tuple[Document, Docume
 
 
 def _edited(document: Document, font: str, glyphs: Mapping[str, DrawnGlyph]) -> Document:
-    from ..lettering.edited_face import check_glyph
-    from ..lettering.in_document import drawn_of, face_in
+    from ..lettering.fonts.edited_face import check_glyph
+    from ..lettering.fonts.in_document import drawn_of, face_in
 
     known = _carried(document, font)
     _check_names(face_in(document, font), font, glyphs)
@@ -153,8 +153,8 @@ def _check_names(face: Face, font: str, names: Iterable[str]) -> None:
 
 def _carried(document: Document, font: str) -> ProjectFont:
     """The project's font of that name, with its file among the assets."""
-    from ..lettering.in_document import asset_of
-    from ..lettering.library import take
+    from ..lettering.fonts.in_document import asset_of
+    from ..lettering.fonts.library import take
 
     font = str(font)
     known = font_named(document.fonts, font)
@@ -176,7 +176,7 @@ def _known(document: Document, font: str) -> ProjectFont:
 
 
 def _with_glyphs(font: ProjectFont, drawn: Mapping[str, DrawnGlyph]) -> ProjectFont:
-    from ..lettering.edited_face import glyphs_as_bytes
+    from ..lettering.fonts.edited_face import glyphs_as_bytes
     from ..project.assets import default_store
 
     if not drawn:

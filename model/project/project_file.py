@@ -74,7 +74,7 @@ def with_versions(document: Document) -> Document:
     new = []
     for name in sorted(names):
         if font_named((*document.fonts, *new), name) is None:
-            from ..lettering.library import version_of
+            from ..lettering.fonts.library import version_of
 
             found = version_of(name)
             if found is not None:

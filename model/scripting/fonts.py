@@ -14,7 +14,7 @@ def font_facts(font: str | os.PathLike[str] = "DejaVu Sans", face: int = 0) -> d
     >>> font_facts("GFS Didot")["units_per_em"]
     1000.0
     """
-    from ..lettering.opening import face_count, open_face
+    from ..lettering.fonts.opening import face_count, open_face
     from ..lettering.report import facts_of
 
     data, number = _data(font, face)
@@ -38,9 +38,9 @@ def font_text(
     >>> [glyph["x"] for glyph in font_text("AVTo", features="kern=0")["glyphs"]]
     [0.0, 1401.0, 2802.0, 4053.0]
     """
+    from ..lettering.fonts.opening import open_face
     from ..lettering.layout import Style
     from ..lettering.lettering import features_of, location_of
-    from ..lettering.opening import open_face
     from ..lettering.report import text_of
 
     opened = open_face(*_data(font, face))
@@ -55,8 +55,8 @@ def font_glyph(glyph: str, font: str | os.PathLike[str] = "DejaVu Sans", *, face
     >>> font_glyph("α", "GFS Didot")["glyphs"][0]["advance"]
     627.0
     """
+    from ..lettering.fonts.opening import open_face
     from ..lettering.layout import Style
-    from ..lettering.opening import open_face
     from ..lettering.report import glyph_of
 
     opened = open_face(*_data(font, face))
@@ -80,8 +80,8 @@ def save_font(
     With a `document`, its edited glyphs of the font called `font` come first. `family` is the new font's name; without
     one it is the first that the font's licence allows.
     """
-    from ..lettering.changing import write_changed_font
-    from ..lettering.in_document import file_of
+    from ..lettering.fonts.changing import write_changed_font
+    from ..lettering.fonts.in_document import file_of
 
     drawn = None
     if document is None:
@@ -93,7 +93,7 @@ def save_font(
 
 
 def _data(font: str | os.PathLike[str], face: int) -> tuple[bytes, int]:
-    from ..lettering.changing import font_data
+    from ..lettering.fonts.changing import font_data
 
     return font_data(font, face)
 

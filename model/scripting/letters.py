@@ -38,7 +38,7 @@ def lettering(
     >>> measure(extrude(letters, 2)).closed
     True
     """
-    from ..lettering.library import ENDINGS, find, keep
+    from ..lettering.fonts.library import ENDINGS, find, keep
 
     name = os.fspath(font)
     if not asset and PurePath(name).suffix.lower() in ENDINGS and find(name) is None:

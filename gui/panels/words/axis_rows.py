@@ -13,7 +13,7 @@ from ....model.document.errors import Refusal
 from ....model.document.fields import FieldSpec
 from ....model.document.nodes import Node
 from ....model.document.tree import find
-from ....model.lettering.face import Axis
+from ....model.lettering.fonts.face import Axis
 from ..property_edit import field_edit
 from ..property_fields import LABEL_WIDTH
 from .face_of_node import face_in_use

@@ -7,7 +7,7 @@ from ....model.document.errors import Refusal
 from ....model.document.nodes import Node, resolve_fields
 from ....model.document.outlines import Lettering
 from ....model.document.project_font import set_in
-from ....model.lettering.face import Face
+from ....model.lettering.fonts.face import Face
 
 
 def lettering_in(document: Document, node: Node, values: dict[str, float]) -> Lettering | None:
@@ -21,7 +21,7 @@ def lettering_in(document: Document, node: Node, values: dict[str, float]) -> Le
 
 def face_in_use(document: Document, node: Node, values: dict[str, float]) -> Face | None:
     """The font's face; None where it is missing or broken, which the problems tell."""
-    from ....model.lettering.library import face_of
+    from ....model.lettering.fonts.library import face_of
 
     lettering = lettering_in(document, node, values)
     if lettering is None:

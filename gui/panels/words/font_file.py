@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QWidget
 
 from ....model.document.errors import Refusal
 from ....model.editing.session import Session
-from ....model.lettering.library import ENDINGS, faces_in, keep
+from ....model.lettering.fonts.library import ENDINGS, faces_in, keep
 from ...dialogs import tell
 from ..property_edit import sentence
 

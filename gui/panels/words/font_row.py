@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QComboBox, QCompleter, QHBoxLayout, QToolButton, Q
 
 from ....model.document.fields import FieldSpec
 from ....model.document.nodes import Node
-from ....model.lettering.library import ENDINGS
+from ....model.lettering.fonts.library import ENDINGS
 from ...icons import icon
 from ..property_edit import field_edit
 from ..text_line import TextLine
@@ -108,7 +108,7 @@ class FontList(QComboBox):
     def _list(self) -> None:
         if self.count():
             return
-        from ....model.lettering.library import BUNDLED, installed
+        from ....model.lettering.fonts.library import BUNDLED, installed
 
         text = self.currentText()
         self.blockSignals(True)

@@ -6,9 +6,9 @@ import re
 from typing import Any
 
 from ...document.errors import Refusal
-from ..opening import open_face
-from ..sfnt_face import SfntFace
-from ..type1_face import Type1Face
+from ..fonts.opening import open_face
+from ..fonts.sfnt_face import SfntFace
+from ..fonts.type1_face import Type1Face
 
 LONGEST = 63
 """Characters of a family name."""
@@ -104,7 +104,7 @@ def postscript_name(family: str, style: str) -> str:
 
 
 def full_name(family: str, style: str) -> str:
-    from ..face import name_of
+    from ..fonts.face import name_of
 
     return name_of(family, style)
 

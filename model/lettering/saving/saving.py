@@ -11,13 +11,13 @@ import numpy as np
 
 from ...document.errors import Refusal
 from ...path.path import Path
-from ..drawn_glyph import DrawnGlyph
-from ..edited_face import EditedFace
-from ..face import DEFAULT, Face, Location
-from ..failing import failing
-from ..opening import open_face
-from ..sfnt_face import SfntFace
-from ..type1_face import Type1Face
+from ..fonts.drawn_glyph import DrawnGlyph
+from ..fonts.edited_face import EditedFace
+from ..fonts.face import DEFAULT, Face, Location
+from ..fonts.failing import failing
+from ..fonts.opening import open_face
+from ..fonts.sfnt_face import SfntFace
+from ..fonts.type1_face import Type1Face
 from .cff import make_cff, rename_cff
 from .cff import put_glyphs as put_charstrings
 from .glyf import HINTS, make_truetype

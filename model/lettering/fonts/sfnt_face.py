@@ -10,8 +10,8 @@ import uharfbuzz
 from fontTools.misc.encodingTools import getEncoding
 from fontTools.ttLib import TTFont
 
-from ..document.errors import Refusal
-from ..path.path import Path
+from ...document.errors import Refusal
+from ...path.path import Path
 from .face import DEFAULT, Axis, Face, Location, Metrics, Run, Shaped
 from .failing import failing
 from .outline_pen import OutlinePen, Overlaid

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from ..document.errors import Refusal
-from ..document.outlines import Path as PathNode
-from ..outline.paths import fields_of, own_path
-from ..path.nodes import inferred
-from ..path.path import Path
+from ...document.errors import Refusal
+from ...document.outlines import Path as PathNode
+from ...outline.paths import fields_of, own_path
+from ...path.nodes import inferred
+from ...path.path import Path
 from .drawn_glyph import DrawnGlyph
 from .face import DEFAULT, Face, Location, Run, Shaped
 
@@ -139,7 +139,7 @@ def transformed(face: Face, name: str, matrix: NDArray[np.float64], weight: floa
     outline = own.transformed(matrix)
     advance = face.advance(name) * abs(float(matrix[0, 0]))
     if weight and outline.contours:
-        from ..path.areas.offsetting import offset
+        from ...path.areas.offsetting import offset
 
         outline = offset(outline, weight, tolerance, "miter").transformed(((1.0, 0.0, weight), (0.0, 1.0, 0.0)))
         advance += 2.0 * weight

@@ -9,12 +9,12 @@ from typing import BinaryIO
 
 import numpy as np
 
-from ..document.errors import Refusal
-from ..project.disk import replace_file
+from ...document.errors import Refusal
+from ...project.disk import replace_file
+from ..layout import STEEPEST
 from .drawn_glyph import DrawnGlyph
 from .edited_face import EditedFace, check_glyph, transformed
 from .face import Face
-from .layout import STEEPEST
 from .library import ENDINGS, bytes_of, find
 from .opening import font_bytes, open_face
 
@@ -91,8 +91,8 @@ def write_changed_font(
     licence allows. What comes back is words on what is not as it was. Raises Refusal; the file that was there is then
     untouched.
     """
-    from .saving.naming import proposed_family
-    from .saving.saving import saved_font
+    from ..saving.naming import proposed_family
+    from ..saving.saving import saved_font
 
     face: Face = open_face(data, number)
     if drawn:

@@ -12,8 +12,8 @@ from functools import lru_cache
 from importlib.resources import files
 from pathlib import Path
 
-from ..document.errors import Refusal
-from ..project.assets import default_store
+from ...document.errors import Refusal
+from ...project.assets import default_store
 from .edited_face import MARK, EditedFace, glyphs_from_bytes
 from .face import PLAIN, Face, name_of
 from .failing import failing

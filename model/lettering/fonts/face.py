@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from ..path.path import Path
+from ...path.path import Path
 
 Location = Mapping[str, float]
 """Values of variable axes, by tag; axes that are left out have their default."""

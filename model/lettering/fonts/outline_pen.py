@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from fontTools.pens.basePen import BasePen
 
-from ..path.path import Contour, Kind, Path
+from ...path.path import Contour, Kind, Path
 
 Place = tuple[float, float]
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from ..document.document import Document
-from ..document.outlines import Lettering
-from ..document.project_font import ProjectFont, font_key, font_named
-from ..document.tree import walk
+from ...document.document import Document
+from ...document.outlines import Lettering
+from ...document.project_font import ProjectFont, font_key, font_named
+from ...document.tree import walk
 from .drawn_glyph import DrawnGlyph
 from .edited_face import EditedFace
 from .face import Face

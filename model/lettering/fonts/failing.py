@@ -6,7 +6,7 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from ..document.errors import Refusal
+from ...document.errors import Refusal
 
 SHOWN = 120
 logging.getLogger("fontTools").setLevel(logging.CRITICAL)  # its remarks on damaged tables, a line for each entry

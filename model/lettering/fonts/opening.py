@@ -8,8 +8,8 @@ import zlib
 from io import BytesIO
 from pathlib import Path as FilePath
 
-from ..document.errors import Refusal
-from ..project.disk import reason_of
+from ...document.errors import Refusal
+from ...project.disk import reason_of
 from .face import Face
 from .failing import failing
 

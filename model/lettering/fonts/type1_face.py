@@ -9,8 +9,8 @@ from typing import Any
 from fontTools import agl
 from fontTools.t1Lib import T1Font
 
-from ..document.errors import Refusal
-from ..path.path import Path
+from ...document.errors import Refusal
+from ...path.path import Path
 from .face import DEFAULT, Face, Location, Metrics, Run, Shaped
 from .failing import failing
 from .outline_pen import OutlinePen

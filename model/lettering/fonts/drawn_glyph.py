@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ..path.path import Path
+from ...path.path import Path
 
 
 @dataclass(frozen=True, slots=True, eq=False)

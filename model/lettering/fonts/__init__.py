@@ -1,0 +1,1 @@
+"""Font files opened, found, kept with projects and edited. Imports nothing but `model`, fontTools and HarfBuzz."""
