@@ -19,8 +19,8 @@ class ProjectFont:
     """What lettering in the font `name` is set in.
 
     `base` is the SHA-256 of the font file, and `face` its face. `asset` is the SHA-256 of what the project carries:
-    the file itself, or its edited glyphs (lettering/fonts/edited_face.py); where it is empty the name is that of an installed
-    font, and `base` tells which version of it the project was made with.
+    the file itself, or its edited glyphs (lettering/fonts/edited_face.py); where it is empty the name is that of an
+    installed font, and `base` tells which version of it the project was made with.
     """
 
     name: str
