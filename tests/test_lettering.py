@@ -12,6 +12,7 @@ import uharfbuzz as hb
 from solidtree.model.document.errors import Refusal
 from solidtree.model.lettering.bidi import levels_of, visual_order
 from solidtree.model.lettering.fonts.library import face_of, fallbacks, find, installed
+from solidtree.model.lettering.fonts.opening import read_font
 from solidtree.model.lettering.layout import Style, lay_out
 from solidtree.model.lettering.shaping import set_line
 from solidtree.model.operations.operations import OPERATIONS
@@ -317,3 +318,19 @@ def test_an_outline_that_is_wrapped_stays_where_it_touches():
     solid = measure(after.solids[0], tolerance=0.001)
     np.testing.assert_allclose(solid.bounds[0], (0, 3, 5 + 26 * np.cos(10 / 25) - 25 - 2 * np.cos(10 / 25)), atol=0.01)
     np.testing.assert_allclose(solid.bounds[1][1:], (9, 6), atol=0.01)
+
+
+def test_devanagari_is_as_harfbuzz_shapes_it(corpus):
+    """Reordered vowels, half forms and conjuncts, from a font that has them."""
+    file = corpus / "fonts" / "good" / "FreeSerif.otf"
+    face = read_font(file)
+    for text in ("हिन्दी", "क्षत्रिय", "र्कि"):
+        buffer = hb.Buffer()
+        buffer.add_str(text)
+        buffer.guess_segment_properties()
+        hb.shape(hb.Font(hb.Face(file.read_bytes())), buffer)
+        names = [face.glyph_names[info.codepoint] for info in buffer.glyph_infos]
+        glyphs, _ = set_line(text, [face])
+        assert [one.glyph for one in glyphs] == names and ".notdef" not in names
+        made = measure(extrude(lettering(text, 20, file), 2, tolerance=0.01))
+        assert made.closed and made.volume > 0

@@ -148,3 +148,22 @@ def test_a_name_is_written_set_leaned_a_glyph_edited_engraved_and_all_undone(mak
         driver.keys("Ctrl+Z", driver.window.viewport)
         steps += 1
     assert driver.document is start and steps == 6, "add, write, font, slant, glyph, engrave"
+
+
+def test_a_click_on_a_letter_s_wall_selects_the_text_the_next_its_extrusion(make_window):
+    from solidtree.model.script import extrude
+
+    driver = make_window(document_of(sign=box(60, 30, 3) - extrude(lettering("I", 40), 2).at(20, 0, 2)))
+    driver.look_from("top")
+    driver.settle()
+    cut = driver.document.solids[0].children[1]
+    (letters,) = cut.children
+    middle = (20 + 0.5 * 40 * 0.295, 10, 2)  # the stem of DejaVu's I: 604 of 2,048 units wide
+    driver.click_at(middle)
+    assert driver.session.selection == (letters.id,)
+    driver.click_at(middle)
+    assert driver.session.selection == (cut.id,)
+    driver.click_at(middle)
+    assert driver.session.selection == (driver.document.solids[0].id,)
+    driver.click_at((5, 20, 3))
+    assert driver.session.selection == (driver.document.solids[0].children[0].id,)

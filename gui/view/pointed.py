@@ -6,8 +6,9 @@ from html import escape
 from typing import TYPE_CHECKING
 
 from ...model.document.document import Document
+from ...model.document.from_outlines import FROM_OUTLINES
 from ...model.document.nodes import Node
-from ...model.document.outlines import is_outline
+from ...model.document.outlines import Lettering, Stencil, TextOnPath, is_outline
 from ...model.document.resolve import Resolver
 from ...model.document.tree import walk
 from ...model.editing.session import Session
@@ -41,14 +42,30 @@ class Pointed:
         return self._nodes[1]
 
     def chain(self, pick: Pick | None) -> tuple[str, ...]:
-        """The nodes from the one that made the face up to the solid, as far as they stand in the document."""
+        """The nodes from the one that made the face up to the solid, as far as they stand in the document; before a
+        solid that is made of letters the text itself."""
+        made = self._made_by(pick)
+        text = self._text_of(made[0]) if made else None
+        return made if text is None else (text, *made)
+
+    def _made_by(self, pick: Pick | None) -> tuple[str, ...]:
         known = self.nodes()
         path = () if pick is None else pick.path
         return tuple(dict.fromkeys(part for part in reversed(path) if isinstance(part, str) and part in known))
 
+    def _text_of(self, node_id: str) -> str | None:
+        """The lettering that a solid is made of, as it is, set along a curve or held by bridges."""
+        node = self.nodes()[node_id]
+        if not isinstance(node, FROM_OUTLINES) or len(node.children) != 1:
+            return None
+        outline = node.children[0]
+        while isinstance(outline, TextOnPath | Stencil):
+            outline = outline.children[0]
+        return outline.id if isinstance(outline, Lettering) else None
+
     def owner(self, pick: Pick | None) -> str | None:
         """The deepest node of the picked face's path that stands in the document."""
-        return next(iter(self.chain(pick)), None)
+        return next(iter(self._made_by(pick)), None)
 
     def path(self, pick: Pick | None) -> Path | None:
         """The picked face's path as far as `owner`."""
