@@ -167,3 +167,7 @@ def test_a_click_on_a_letter_s_wall_selects_the_text_the_next_its_extrusion(make
     assert driver.session.selection == (driver.document.solids[0].id,)
     driver.click_at((5, 20, 3))
     assert driver.session.selection == (driver.document.solids[0].children[0].id,)
+    before = driver.window.viewport.viewer.camera.distance
+    driver.click_at(middle)
+    driver.qtbot.mouseDClick(driver.window.viewport, Qt.MouseButton.LeftButton, pos=driver.pixel_of(middle))
+    driver.qtbot.waitUntil(lambda: driver.window.viewport.viewer.camera.distance < before)

@@ -42,13 +42,13 @@ class Pointed:
         return self._nodes[1]
 
     def chain(self, pick: Pick | None) -> tuple[str, ...]:
-        """The nodes from the one that made the face up to the solid, as far as they stand in the document; before a
-        solid that is made of letters the text itself."""
-        made = self._made_by(pick)
+        """The makers of the face, and before a solid of letters the text itself: what clicks go through."""
+        made = self.makers(pick)
         text = self._text_of(made[0]) if made else None
         return made if text is None else (text, *made)
 
-    def _made_by(self, pick: Pick | None) -> tuple[str, ...]:
+    def makers(self, pick: Pick | None) -> tuple[str, ...]:
+        """The nodes from the one that made the face up to the solid, as far as they stand in the document."""
         known = self.nodes()
         path = () if pick is None else pick.path
         return tuple(dict.fromkeys(part for part in reversed(path) if isinstance(part, str) and part in known))
@@ -65,7 +65,7 @@ class Pointed:
 
     def owner(self, pick: Pick | None) -> str | None:
         """The deepest node of the picked face's path that stands in the document."""
-        return next(iter(self._made_by(pick)), None)
+        return next(iter(self.makers(pick)), None)
 
     def path(self, pick: Pick | None) -> Path | None:
         """The picked face's path as far as `owner`."""

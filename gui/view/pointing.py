@@ -104,7 +104,7 @@ class Pointing(QObject):
 
     def double_click(self, pick: Pick | None) -> tuple[str, ...]:
         """The nodes to fit, none for all. A step up that the first of the two clicks made is taken back."""
-        chain = self.pointed.chain(pick)
+        chain = self.pointed.makers(pick)
         if self._stepped_from is not None:
             self._session.select(self._stepped_from)
             if self._spot is not None:
