@@ -4,7 +4,7 @@ import pytest
 
 from solidtree.model.script import document_of, extrude, lettering, union
 from solidtree.model.solid.evaluate import Evaluator
-from solidtree.model.solid.outlines.letters import _risen
+from solidtree.model.solid.outlines.letters import _kept
 from solidtree.model.solid.outlines.sections import section_of
 
 LONG = "The quick brown fox jumps over the lazy dog"
@@ -50,11 +50,11 @@ def test_it_goes_with_its_placement():
 
 def test_one_edited_letter_is_drawn_up_alone():
     solid(extrude(lettering(LONG), 2))
-    before = _risen.cache_info().misses
+    before = _kept.cache_info().misses
     solid(extrude(lettering(LONG.replace("jumps", "dumps")), 2))
-    assert _risen.cache_info().misses - before <= 1, "the d is there already; the kerned neighbours may go together"
+    assert _kept.cache_info().misses - before <= 1, "the d is there already; the kerned neighbours may go together"
     solid(extrude(lettering(LONG.replace("lazy", "l@zy")), 2))
-    assert 1 <= _risen.cache_info().misses - before <= 3
+    assert 1 <= _kept.cache_info().misses - before <= 3
 
 
 def test_faces_of_all_letters_are_of_one_node():

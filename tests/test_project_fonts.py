@@ -275,5 +275,17 @@ def test_glyph_fields_make_the_glyph_again():
     assert path_of_lettering(lettering("g", font=DIDOT)).contours
 
 
+def test_a_font_that_lettering_brings_itself_may_be_released(tmp_path):
+    from shutil import copy
+
+    file = copy(find(DIDOT).path, tmp_path / "own.otf")
+    document = text("I", font=file).with_(fonts=())
+    letters = document.solids[0].children[0]
+    own = letters.with_(font="Only Here")
+    document = document.with_(solids=(document.solids[0].with_(children=(own,)),))
+    edited = do(document, "edit_glyphs", "Only Here", {"I": BRICK})
+    assert do(edited, "release_font", "Only Here").fonts == ()
+
+
 def test_a_box_knows_nothing_of_fonts():
     assert not box(1).symbolic and not document_of(box(1)).fonts

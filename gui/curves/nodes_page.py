@@ -94,7 +94,7 @@ class NodesPage(QWidget):
         layout.addLayout(grid)
         layout.addSpacing(4)
         for names in buttons:
-            row = _buttons(actions, names, self)
+            row = button_row(actions, names, self)
             if row is not None:
                 layout.addLayout(row)
         layout.addStretch(1)
@@ -275,7 +275,7 @@ class NodesPage(QWidget):
         return "  ·  ".join(words)
 
 
-def _buttons(actions: Actions, names: Sequence[str], parent: QWidget) -> QHBoxLayout | None:
+def button_row(actions: Actions, names: Sequence[str], parent: QWidget) -> QHBoxLayout | None:
     """A row of buttons for commands; None where none of them is there."""
     there = {command.name for command in actions.commands()}
     known = [name for name in names if not name or name in there]

@@ -10,14 +10,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QCloseEvent
 from PySide6.QtWidgets import (
     QComboBox,
-    QHBoxLayout,
     QLabel,
     QMainWindow,
     QScrollArea,
     QSizePolicy,
     QSplitter,
     QTabWidget,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -25,6 +23,7 @@ from PySide6.QtWidgets import (
 from ...model.document.outlines import Lettering
 from ...model.editing.chosen import chosen
 from ..commands.actions import Actions
+from ..curves.nodes_page import button_row
 from .comparison import Comparison
 from .glyph_canvas import HINT, GlyphCanvas
 from .glyph_commands import GLYPH_COMMANDS, NODE_ROWS, TOOL_BAR
@@ -107,18 +106,9 @@ class FontWindow(QMainWindow):
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(2)
         for names in NODE_ROWS:
-            row = QHBoxLayout()
-            row.setSpacing(2)
-            for name in names:
-                if not name:
-                    row.addSpacing(8)
-                    continue
-                button = QToolButton(buttons)
-                button.setDefaultAction(self.actions_[name])
-                button.setAutoRaise(True)
-                row.addWidget(button)
-            row.addStretch(1)
-            column.addLayout(row)
+            row = button_row(self.actions_, names, buttons)
+            if row is not None:
+                column.addLayout(row)
         return buttons
 
     def _lay_out(self) -> None:

@@ -25,6 +25,7 @@ from ...model.document.errors import Refusal
 from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
 from ...model.path.nodes import move_handle
 from ...model.path.path import Path
+from ..curves.editing.edit_keys import ALT, ARROWS, CONTROL, SHIFT
 from ..theme import colours_now
 from . import glyph_edits
 from .glyph_desk import GlyphDesk, Place
@@ -34,17 +35,6 @@ REACH = 8.0  # logical pixels within which a point is caught
 SIDE = 5.0
 MARGIN = 0.12  # of the canvas, around a glyph that is fitted
 NEAREST, FARTHEST = 1e-3, 100.0  # pixels a font unit
-SHIFT, CONTROL, ALT = (
-    Qt.KeyboardModifier.ShiftModifier,
-    Qt.KeyboardModifier.ControlModifier,
-    Qt.KeyboardModifier.AltModifier,
-)
-ARROWS = {
-    Qt.Key.Key_Left: (-1.0, 0.0),
-    Qt.Key.Key_Right: (1.0, 0.0),
-    Qt.Key.Key_Up: (0.0, 1.0),
-    Qt.Key.Key_Down: (0.0, -1.0),
-}
 HINT = (
     "Drag nodes, handles and the right side bearing; Shift adds to the choice or keeps a drag straight. "
     "Double-click the outline for a node, wheel to zoom, middle button to pan, F to fit."

@@ -18,7 +18,7 @@ from ...model.lettering.fonts.drawn_glyph import DrawnGlyph
 from ...model.lettering.fonts.edited_face import EditedFace, glyph_fields
 from ...model.lettering.fonts.face import Face
 from ...model.lettering.fonts.in_document import face_in
-from ...model.lettering.fonts.library import STANDARD, find
+from ...model.lettering.fonts.library import STANDARD
 from ...model.path.nodes import inferred
 from ...model.path.path import Path
 
@@ -172,7 +172,3 @@ class GlyphDesk(QObject):
 
     def reset(self, glyphs: Sequence[str]) -> None:
         self.do("reset_glyphs", list(glyphs), label="Reset glyphs")
-
-    def known(self, name: str) -> bool:
-        """Whether a font of this name is there to be worked on."""
-        return font_named(self.session.document.fonts, name) is not None or find(name) is not None

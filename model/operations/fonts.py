@@ -20,9 +20,6 @@ if TYPE_CHECKING:
     from ..lettering.fonts.drawn_glyph import DrawnGlyph
     from ..lettering.fonts.face import Face
 
-FINE = 5e-4
-"""Share of the em within which a glyph's outline is grown."""
-
 
 def carry_font(document: Document, font: str) -> Document:
     """Put the file of a font into the project, so that its lettering is the same on every computer.
@@ -90,11 +87,7 @@ def transform_glyphs(
     face = face_in(document, font)
     names = _listed(glyphs)
     _check_names(face, font, names)
-    return _edited(
-        document,
-        font,
-        {name: transformed(face, name, affine, float(weight), FINE * face.units_per_em) for name in names},
-    )
+    return _edited(document, font, {name: transformed(face, name, affine, float(weight)) for name in names})
 
 
 def reset_glyphs(document: Document, font: str, glyphs: Sequence[str] | str | None = None) -> Document:
@@ -194,4 +187,5 @@ def _put(document: Document, font: ProjectFont) -> Document:
 
 
 def _used(document: Document) -> set[str]:
-    return {node.font for node in walk(*document.roots) if isinstance(node, Lettering)}
+    """Names of the fonts of lettering that refers to no file itself."""
+    return {node.font for node in walk(*document.roots) if isinstance(node, Lettering) and not node.asset}

@@ -18,9 +18,6 @@ from .face import Face
 from .library import ENDINGS, bytes_of, find
 from .opening import font_bytes, open_face
 
-FINE = 5e-4
-"""Share of the em within which a glyph's outline is grown."""
-
 
 def font_data(font: str | os.PathLike[str], number: int = 0) -> tuple[bytes, int]:
     """What is in a font's file, and the number of its face, by its path or its name. Raises Refusal."""
@@ -67,7 +64,7 @@ def changed_glyphs(face: Face, characters: str = "", slant: float = 0.0, weight:
     if not (slant or weight):
         return {}
     matrix = np.array(((1.0, math.tan(math.radians(slant)), 0.0), (0.0, 1.0, 0.0)))
-    glyphs = {name: transformed(face, name, matrix, weight, FINE * face.units_per_em) for name in sorted(names)}
+    glyphs = {name: transformed(face, name, matrix, weight) for name in sorted(names)}
     for name, glyph in glyphs.items():
         check_glyph(name, glyph)
     return glyphs

@@ -23,6 +23,8 @@ from .face import DEFAULT, Face, Location, Run, Shaped
 MARK = b'{"solidtree_font":'
 """What the bytes of edited glyphs begin with."""
 VERSION = 1
+FINE = 5e-4
+"""Share of the em within which a glyph's outline is grown."""
 
 
 class EditedFace(Face):
@@ -128,8 +130,8 @@ def check_glyph(name: str, glyph: DrawnGlyph) -> None:
             raise Refusal(f"{who} reaches farther than {FARTHEST:g} units from its origin, more than a font can hold")
 
 
-def transformed(face: Face, name: str, matrix: NDArray[np.float64], weight: float, tolerance: float) -> DrawnGlyph:
-    """A glyph under an affine map (2, 3), grown by `weight` on every side within `tolerance`; all in font units.
+def transformed(face: Face, name: str, matrix: NDArray[np.float64], weight: float) -> DrawnGlyph:
+    """A glyph under an affine map (2, 3), grown by `weight` on every side; all in font units.
 
     Its width goes with the map's scale along x; the side bearings stay as it grows. Raises Refusal.
     """
@@ -141,7 +143,9 @@ def transformed(face: Face, name: str, matrix: NDArray[np.float64], weight: floa
     if weight and outline.contours:
         from ...path.areas.offsetting import offset
 
-        outline = offset(outline, weight, tolerance, "miter").transformed(((1.0, 0.0, weight), (0.0, 1.0, 0.0)))
+        outline = offset(outline, weight, FINE * face.units_per_em, "miter").transformed(
+            ((1.0, 0.0, weight), (0.0, 1.0, 0.0))
+        )
         advance += 2.0 * weight
     return DrawnGlyph(outline, advance)
 

@@ -20,6 +20,8 @@ FEWEST = 8
 NEAR = 1e-6
 """Of the size of the em: letters whose boxes are nearer than this are drawn up together."""
 DIGITS = 9
+KEPT = 6
+"""Letters that touch, as in joined scripts, of which more are not kept: they would fill the memory."""
 Placed = tuple[Drawn, tuple[float, float]]
 
 
@@ -51,7 +53,8 @@ def extruded_letters(node: Lettering, tolerance: float, height: float) -> Manifo
     for group in _near(boxes, NEAR * float(node.size)):  # type: ignore[arg-type]
         first = places[group[0]]
         key = tuple((glyphs[i][0], tuple(np.round(places[i] - first, DIGITS).tolist())) for i in group)
-        solids.append(_risen(key, fine, height).translate((*first.tolist(), 0.0)))
+        risen = _kept if len(group) <= KEPT else _risen
+        solids.append(risen(key, fine, height).translate((*first.tolist(), 0.0)))
     solid = Manifold.batch_boolean(solids, OpType.Add)
     if not node.placement.steps:
         return solid
@@ -62,13 +65,15 @@ def extruded_letters(node: Lettering, tolerance: float, height: float) -> Manifo
     return solid.transform(np.array(((a, b, 0.0, x), (c, d, 0.0, y), (0.0, 0.0, 1.0, 0.0))))
 
 
-@lru_cache(maxsize=1024)
 def _risen(letters: tuple[Placed, ...], tolerance: float, height: float) -> Manifold:
     """Letters that overlap, or may, about the origin of the first."""
     rings = [
         np.ascontiguousarray(ring + place) for drawn, place in letters for ring in rings_of_glyph(*drawn, tolerance)
     ]
     return Manifold.extrude(CrossSection(rings, FillRule.NonZero), height)
+
+
+_kept = lru_cache(maxsize=1024)(_risen)
 
 
 def _corners(flat: list[NDArray[np.float64]]) -> tuple[float, ...]:
