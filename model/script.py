@@ -2,15 +2,16 @@
 
 Everything is a value: a call returns a new one. Lengths are millimetres and angles degrees; any number may be an
 expression, as text or made from `parameter`. The methods of a solid place and dress it, in call order, about the
-world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `coloured`, `noted`, `hidden`. The nodes
-of an open document are placed by `move`, `turn` and `scale`, operations that the window's script log shows.
+world's origin: `at`, `turned`, `scaled`, `mirrored`, `transformed`, `named`, `coloured`, `dressed`, `noted`, `hidden`.
+The nodes of an open document are placed by `move`, `turn` and `scale`, operations that the window's script log
+shows.
 """
 
 from __future__ import annotations
 
 from .document.document import Document
 from .document.errors import Refusal
-from .scripting import documents, fonts, hidden_surfaces, joining, letters, shapes, sight
+from .scripting import documents, fonts, hidden_surfaces, joining, letters, shapes, sight, surfaces
 from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
 from .scripting.fonts import *  # noqa: F403
@@ -20,6 +21,7 @@ from .scripting.letters import *  # noqa: F403
 from .scripting.outlines import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
+from .scripting.surfaces import *  # noqa: F403
 
 __all__ = ["Document", "Refusal"]
 __all__ += shapes.__all__
@@ -30,3 +32,4 @@ __all__ += documents.__all__
 __all__ += fonts.__all__
 __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__
+__all__ += surfaces.__all__

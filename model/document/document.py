@@ -9,6 +9,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
+from ..surface.light import MOST as MOST_LIGHTS
+from ..surface.light import Light
+from ..surface.material import SHADINGS, Material, one_of
 from .arithmetic import RESERVED, normal_name
 from .errors import Refusal
 from .expression import Expression, Number, number, resolved, vector
@@ -142,7 +145,9 @@ class Document:
 
     `solids` are the roots of the CSG trees, `profiles` the outlines that stand by themselves, `definitions` the
     sub-trees that instances refer to by their root's id. `sets` are saved values of the parameters, `sections` the
-    planes that open the picture, `fonts` those that names of fonts stand for; the names of either are all different.
+    planes that open the picture, `fonts` those that names of fonts stand for, `materials` those that nodes name,
+    `lights` those of the picture (none: the program's own), `shading` that of its pictures ("": the window decides).
+    The names of either are all different.
     """
 
     solids: tuple[Node, ...] = ()
@@ -152,10 +157,19 @@ class Document:
     sets: tuple[ParameterSet, ...] = ()
     sections: tuple[Section, ...] = ()
     fonts: tuple[ProjectFont, ...] = ()
+    materials: tuple[Material, ...] = ()
+    lights: tuple[Light, ...] = ()
+    shading: str = ""
     notes: str = ""
 
     def __post_init__(self) -> None:
-        for members, what in ((self.parameters, "parameters"), (self.sets, "sets"), (self.sections, "sections")):
+        for members, what in (
+            (self.parameters, "parameters"),
+            (self.sets, "sets"),
+            (self.sections, "sections"),
+            (self.materials, "materials"),
+            (self.lights, "lights"),
+        ):
             names: set[str] = set()
             for member in members:
                 if member.name in names:
@@ -163,6 +177,9 @@ class Document:
                 names.add(member.name)
         if len({font_key(font.name) for font in self.fonts}) < len(self.fonts):
             raise Refusal("there are two fonts of one name")
+        one_of(self.shading, ("", *SHADINGS), "the shading of a document")
+        if sum(light.active for light in self.lights) > MOST_LIGHTS:
+            raise Refusal(f"at most {MOST_LIGHTS} lights can shine at once: switch one off first")
 
     def __repr__(self) -> str:
         outlines = f", {len(self.profiles)} outlines" if self.profiles else ""
@@ -179,6 +196,9 @@ class Document:
     @property
     def roots(self) -> tuple[Node, ...]:
         return self.solids + self.profiles + self.definitions
+
+    def material(self, name: str) -> Material | None:
+        return next((material for material in self.materials if material.name == name), None)
 
     def parameter(self, name: str) -> Parameter:
         """The parameter of this name. Raises Refusal."""

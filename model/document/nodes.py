@@ -1,7 +1,7 @@
 """The nodes of a CSG tree: frozen values with a digest. Two nodes are equal when they are the same solid.
 
-Equality and hash are the digest's, and the digest leaves out id, name, colour, visibility and note; so a rename never
-re-cuts, equal parts share one mesh, and **change is detected with `is`, never with `==`**.
+Equality and hash are the digest's, and the digest leaves out id, name, colour, material, visibility and note; so a
+rename never re-cuts, equal parts share one mesh, and **change is detected with `is`, never with `==`**.
 """
 
 from __future__ import annotations
@@ -14,6 +14,8 @@ from dataclasses import dataclass
 from hashlib import blake2b
 from typing import Any, ClassVar, Self
 
+from ..surface.mapping import TextureMapping
+from ..surface.material import Material
 from . import fields
 from .colours import hex_colour
 from .errors import Refusal
@@ -41,6 +43,10 @@ class Node:
     colour: str | None = None
     visible: bool = True
     note: str = ""
+    material: str | Material = ""
+    """The name of a material of the document, or in scripts the material itself; "": that of what it is part of."""
+    mapping: TextureMapping | None = None
+    """How bitmaps lie on its faces; None: as on what it is part of."""
     placement: Placement = Placement()
     children: tuple[Node, ...] = ()
     digest: bytes = dataclasses.field(init=False)
@@ -73,6 +79,10 @@ class Node:
             raise Refusal(f"{self.title}: visible must be true or false, not {self.visible!r:.60}")
         if self.colour is not None:
             _set(self, "colour", hex_colour(self.colour))
+        if not isinstance(self.material, str | Material):
+            raise Refusal(f"{self.title}: a material or the name of one is needed, not {self.material!r:.60}")
+        if self.mapping is not None and not isinstance(self.mapping, TextureMapping):
+            raise Refusal(f"{self.title}: a texture's mapping is needed, not {self.mapping!r:.60}")
         children = self.children
         if type(children) is not tuple:
             try:
@@ -192,6 +202,14 @@ class Node:
         """With this colour, `#rrggbb` or a CSS colour's name; it stays on the faces of every result."""
         return self.with_(colour=colour)
 
+    def dressed(self, *dress: Material | TextureMapping | str | tuple[Material, TextureMapping]) -> Self:
+        """With a material (or the name of one), with a texture's mapping, or with both."""
+        changes: dict[str, Any] = {}
+        for one in dress:
+            for part in one if isinstance(one, tuple) else (one,):
+                changes["mapping" if isinstance(part, TextureMapping) else "material"] = part
+        return self.with_(**changes)
+
     def noted(self, note: str) -> Self:
         """With a note to the reader."""
         return self.with_(note=note)
@@ -221,7 +239,9 @@ def field_specs(kind: type[Node]) -> tuple[FieldSpec, ...]:
 
 def _flat(node: Node, kind: type[Node]) -> tuple[Node, ...]:
     """The operands of a plain operation of this kind, so that a + b + c is one union of three."""
-    plain = type(node) is kind and not (node.name or node.note or node.colour or node.placement.steps)
+    plain = type(node) is kind and not (
+        node.name or node.note or node.colour or node.material or node.mapping or node.placement.steps
+    )
     return node.children if plain and node.visible else (node,)
 
 

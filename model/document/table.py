@@ -5,8 +5,11 @@ from __future__ import annotations
 import dataclasses
 import operator
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, TypeVar
 
+from ..surface.light import Light
+from ..surface.mapping import TextureMapping
+from ..surface.material import Material
 from . import from_outlines, outlines, primitives  # which register their kinds
 from .colours import hex_colour
 from .document import Document, Parameter, ParameterSet, Section
@@ -18,6 +21,7 @@ from .project_font import ProjectFont
 from .tree import FAMILIES, MAX_NODES, walk
 
 MAX_ID = 100
+_Dress = TypeVar("_Dress", Material, Light, TextureMapping)
 _DEFAULTS: dict[type[Node], dict[str, Any]] = {}
 assert from_outlines and outlines and primitives
 
@@ -50,6 +54,9 @@ def to_table(document: Document) -> dict[str, Any]:
     table["fonts"] = [
         {"name": one.name, "base": one.base, "face": one.face, "asset": one.asset} for one in document.fonts
     ]
+    table["materials"] = [_changed(one, Material) for one in document.materials]
+    table["lights"] = [_changed(one, Light) for one in document.lights]
+    table["shading"] = document.shading
     table["notes"] = document.notes
     return table
 
@@ -65,11 +72,21 @@ def _row(node: Node) -> dict[str, Any]:
         value = getattr(node, name)
         if value != _default(Node, name):
             row[name] = value
+    if node.material:
+        row["material"] = node.material if isinstance(node.material, str) else node.material.name
+    if node.mapping is not None:
+        row["mapping"] = _changed(node.mapping, TextureMapping)
     if node.placement.steps:
         row["placement"] = [[step.word, *(_plain(n) for n in step.numbers)] for step in node.placement.steps]
     if node.children:
         row["children"] = [child.id for child in node.children]
     return row
+
+
+def _changed(value: Material | Light | TextureMapping, kind: type[Material | Light | TextureMapping]) -> dict[str, Any]:
+    """The fields that have not their default."""
+    found = ((field.name, getattr(value, field.name), field.default) for field in dataclasses.fields(kind))
+    return {name: _plain(now) for name, now, default in found if now != default}
 
 
 def _plain(value: Any) -> Any:
@@ -121,6 +138,11 @@ def from_table(table: Mapping[str, Any], reuse: Reuse | None = None) -> Document
         sets=tuple(_set(row) for row in _expect(table.get("sets", []), list, "“sets”")),
         sections=tuple(_section(row) for row in _expect(table.get("sections", []), list, "“sections”")),
         fonts=tuple(_font(row) for row in _expect(table.get("fonts", []), list, "“fonts”")),
+        materials=tuple(
+            _restored(row, "a material", Material) for row in _expect(table.get("materials", []), list, "“materials”")
+        ),
+        lights=tuple(_restored(row, "a light", Light) for row in _expect(table.get("lights", []), list, "“lights”")),
+        shading=_expect(table.get("shading", ""), str, "“shading”"),
         notes=_expect(table.get("notes", ""), str, "“notes”"),
     )
 
@@ -166,7 +188,7 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
     specs = {spec.name: spec for spec in field_specs(kind)}
     if kind is Instance and children:
         raise Refusal(f"node {node_id}: an instance holds no operands")
-    known = {"kind", "name", "colour", "visible", "note", "placement", "children", *specs}
+    known = {"kind", "name", "colour", "visible", "note", "material", "mapping", "placement", "children", *specs}
     try:
         extra = sorted(set(row) - known)
         if extra:
@@ -175,11 +197,13 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
         for name, spec in specs.items():
             if name in row:
                 changes[name] = row[name] if spec.type in ("text", "letters", "choice") else _value(row[name])
-        for name, wanted in (("name", str), ("note", str), ("visible", bool)):
+        for name, wanted in (("name", str), ("note", str), ("visible", bool), ("material", str)):
             if name in row:
                 changes[name] = _expect(row[name], wanted, f"“{name}”")
         if row.get("colour") is not None:
             changes["colour"] = hex_colour(row["colour"])
+        if "mapping" in row:
+            changes["mapping"] = _restored(row["mapping"], "a texture's mapping", TextureMapping)
         if "placement" in row:
             changes["placement"] = Placement(
                 tuple(_step(step) for step in _expect(row["placement"], list, "“placement”"))
@@ -238,6 +262,16 @@ def _section(row: Any) -> Section:
 
 def _font(row: Any) -> ProjectFont:
     return ProjectFont(**_fields(row, "a font", ProjectFont))
+
+
+def _restored(row: Any, what: str, kind: type[_Dress]) -> _Dress:
+    row = _expect(row, dict, what)
+    known = {field.name: field.default for field in dataclasses.fields(kind)}
+    extra = sorted(map(str, row.keys() - known.keys()))
+    if extra or ("name" in known and "name" not in row):
+        raise Refusal(f"{what} has no field {extra[0]!r:.60}" if extra else f"{what} has no name")
+    values: dict[str, Any] = {name: tuple(value) if isinstance(value, list) else value for name, value in row.items()}
+    return kind(**values)
 
 
 def _fields(row: Any, what: str, kind: type[ParameterSet | Section | ProjectFont]) -> dict[str, Any]:

@@ -13,6 +13,9 @@ from ..document.placement import Affine, Move, Placement, Reflect, Scale, Step, 
 from ..document.table import to_table
 from ..document.tree import numbered
 from ..operations.parameters import parameter_arguments
+from ..operations.surfaces import with_materials_of
+from ..surface.mapping import TextureMapping
+from ..surface.material import Material
 
 MAX_NESTING = 60
 """Python cannot read calls nested some 200 deep; such a tree is written as its table."""
@@ -68,7 +71,8 @@ def _argument(value: Any) -> str:
     if isinstance(value, Node):
         if depth(value) <= MAX_NESTING:
             return script_of(value)
-        return f"{_argument(Document(solids=numbered([value])))}.solids[0]"
+        document, roots = with_materials_of(Document(), numbered([value]))
+        return f"{_argument(document.with_(solids=tuple(roots)))}.solids[0]"
     if isinstance(value, Document):
         return f"document_from({to_table(value)!r})"
     if isinstance(value, Step):
@@ -109,10 +113,26 @@ def _one(node: Node, operands: list[str]) -> str:
             parts.append(f"{spec.name}={number_text(value)}")
     text = f"{function_name(kind)}({', '.join(parts)})"
     text += _placed(node.placement)
+    dress = [_dress(part) for part in (node.material, node.mapping) if part]
+    if dress:
+        text += f".dressed({', '.join(dress)})"
     for method, value in (("named", node.name), ("coloured", node.colour), ("noted", node.note)):
         if value:
             text += f".{method}({value!r})"
     return text if node.visible else text + ".hidden()"
+
+
+def _dress(dress: str | Material | TextureMapping) -> str:
+    if isinstance(dress, str):
+        return repr(dress)
+    changed = {
+        field.name: getattr(dress, field.name)
+        for field in dataclasses.fields(dress)
+        if getattr(dress, field.name) != field.default and field.name != "name"
+    }
+    if isinstance(dress, TextureMapping):
+        return call("texture", **changed)
+    return call("material", dress.name, **changed)
 
 
 def _placed(placement: Placement) -> str:

@@ -25,6 +25,7 @@ from ..document.tree import (
 )
 from .fonts import with_fonts_of
 from .parameters import declaring
+from .surfaces import joined_lights, with_like_materials
 
 
 def link(document: Document, ids: Iterable[str] | str) -> Document:
@@ -94,6 +95,8 @@ def insert_document(document: Document, other: Document) -> Document:
     for one in other.sections:
         sections.append(one.with_(name=unique_name(one.name, [two.name for two in sections]), active=False))
     document, other = with_fonts_of(document.with_(sets=tuple(sets), sections=tuple(sections)), other)
+    document, other = with_like_materials(document, other)
+    document = document.with_(lights=tuple(joined_lights(document.lights, other.lights)))
     declaring(document, [node.expressions() for node in walk(*other.roots)])
     roots = numbered(other.roots, next_number(document))
     renamed = {old.id: new.id for old, new in zip(other.roots, roots, strict=True)}

@@ -54,6 +54,19 @@ from .placing import move, place, scale, shifted_within, turn
 from .relocating import copy_to, duplicate, promote, relocate, reorder, swap
 from .sections import add_section, delete_section, rename_section, set_section
 from .structure import change_kind, combine, delete, dissolve, insert, replace
+from .surfaces import (
+    add_light,
+    add_material,
+    delete_light,
+    delete_material,
+    rename_light,
+    rename_material,
+    set_light,
+    set_mapping,
+    set_material,
+    set_shading,
+    use_material,
+)
 
 
 def rename(document: Document, node_id: str, name: str) -> Document:
@@ -153,6 +166,8 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         set_parameter, rename_parameter, delete_parameter, reorder_parameter, set_parameters,
         save_set, put_sets, apply_set, rename_set, delete_set,
         add_section, set_section, rename_section, delete_section,
+        add_material, set_material, rename_material, delete_material, use_material, set_mapping,
+        add_light, set_light, rename_light, delete_light, set_shading,
         engrave, carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
         bend_segment,
         combine_outlines, offset_outline, stroke_outline,

@@ -14,6 +14,7 @@ from ..document.tree import change_each, family_of, next_number, numbered, outer
 from .fitting import carried_into, check_fit, check_tree, named_apart, steps_above
 from .linking import check_definitions, used_definitions
 from .parameters import declaring
+from .surfaces import with_like_materials
 
 
 def clip(document: Document, ids: Sequence[str]) -> Document:
@@ -43,8 +44,10 @@ def clip(document: Document, ids: Sequence[str]) -> Document:
     families: dict[str, list[Node]] = {"solids": [], "profiles": []}
     for root in roots:
         families[family_of(root, flat)].append(root)
+    worn = {node.material for node in walk(*roots, *definitions)}
     return Document(solids=tuple(families["solids"]), profiles=tuple(families["profiles"]), definitions=definitions,
-                    parameters=_used_parameters(document, roots + definitions))  # fmt: skip
+                    parameters=_used_parameters(document, roots + definitions),
+                    materials=tuple(material for material in document.materials if material.name in worn))  # fmt: skip
 
 
 def _used_parameters(document: Document, roots: tuple[Node, ...]) -> tuple[Parameter, ...]:
@@ -73,6 +76,7 @@ def paste(document: Document, other: Document, parent_id: str | None = None, ind
     document = document.with_(parameters=(*document.parameters, *(p for p in other.parameters if p.name not in known)))
     declaring(document, [list(expressions_in([p.value])) for p in other.parameters])
     declaring(document, [node.expressions() for node in walk(*other.roots)])
+    document, other = with_like_materials(document, other)
     here = {root.id: root for root in document.definitions}
     coming = _unlike(other.definitions, here)
     roots = numbered((*coming, *other.standing), next_number(document))

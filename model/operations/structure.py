@@ -56,6 +56,7 @@ from .fitting import (
 )
 from .linking import check_definitions
 from .parameters import declaring
+from .surfaces import with_materials_of
 
 OF_SOLIDS: tuple[type[Node], ...] = (
     Union, Difference, Intersection, Hull, Minkowski, LinearArray, PolarArray, Mirror,
@@ -97,6 +98,7 @@ def _coming(document: Document, node: Node, parent_id: str | None) -> tuple[Docu
             raise Refusal(f"“{part.label}” stands in resolved trees only, not in a document")
     check_definitions(document, [fresh], parent_id)
     check_tree(fresh, Outlines(document.definitions))
+    document, (fresh,) = with_materials_of(document, [fresh])
     return declaring(document, [part.expressions() for part in walk(fresh)]), fresh
 
 

@@ -121,6 +121,9 @@ def references(document: Document) -> dict[str, str]:
         if font.asset:
             found.setdefault(font.asset, f"the font “{font.name}”")
             found.setdefault(font.base, f"the font “{font.name}”")
+    for material in document.materials:
+        for sha in material.bitmaps:
+            found.setdefault(sha, f"the material “{material.name}”")
     return found
 
 

@@ -15,22 +15,31 @@ from ..document.errors import Refusal
 from ..document.nodes import Node
 from ..document.tree import Names, numbered, put, walk
 from ..operations.parameters import declared, names_of
+from ..operations.surfaces import with_materials_of
+from ..surface.light import Light
 from .joining import solids_of
 from .shapes import Value
 
 
-def document_of(*solids: Node | Document, **named: Node) -> Document:
-    """A document of these solids and outlines; a keyword is a name. Parameters are those that their numbers declare."""
+def document_of(*solids: Node | Document | Light, **named: Node | Light) -> Document:
+    """A document of these solids and outlines, with the materials that they wear, and of lights; a keyword is a name.
+    Parameters are those that their numbers declare."""
     if len(solids) == 1 and isinstance(solids[0], Document) and not named:
         return solids[0]
     roots: list[Node] = []
+    lights: list[Light] = []
     names = Names()
     for name, solid in [*((None, solid) for solid in solids), *named.items()]:
+        if isinstance(solid, Light):
+            lights.append(solid if name is None else solid.with_(name=name))
+            continue
         if not isinstance(solid, Node):
             raise Refusal(f"a document holds solids, not {solid!r:.60}")
         wanted = names.take(name or solid.label)
         roots.append(solid if solid.name == wanted else solid.with_(name=wanted))
-    return put(Document(parameters=_declared(roots)), numbered(roots))
+    document = Document(parameters=_declared(roots), lights=tuple(lights))
+    document, roots = with_materials_of(document, numbered(roots))
+    return put(document, roots)
 
 
 def document_from(table: Mapping[str, Any]) -> Document:
@@ -205,7 +214,9 @@ def save_sets(path: str | os.PathLike[str], document: Document) -> None:
     write_sets(path, document.sets)
 
 
-def save(path: str | os.PathLike[str], *solids: Node | Document, tolerance: float = 0.05, **named: Node) -> Document:
+def save(
+    path: str | os.PathLike[str], *solids: Node | Document | Light, tolerance: float = 0.05, **named: Node | Light
+) -> Document:
     """Write a project (.solidtree), a mesh file (.stl .3mf .obj .ply .off .glb) or outlines (.svg .dxf).
 
     A keyword is a name. The result is the document written.
