@@ -53,3 +53,23 @@ class Light:
 
     def with_(self, **changes: Any) -> Self:
         return replace(self, **changes)
+
+
+def _of_the_program(name: str, towards: tuple[float, float, float], intensity: float) -> Light:
+    x, y, z = towards
+    return Light(name, "directional", intensity=intensity, direction=(-x, -y, -z), with_camera=True)
+
+
+PROGRAM: tuple[Light, ...] = (
+    Light("Ambient", "ambient"),
+    _of_the_program("Key", (-0.45, 0.45, 1.0), 0.72),
+    _of_the_program("Fill", (0.9, 0.0, 0.5), 0.25),
+    _of_the_program("Glow", (-0.1, -1.0, 0.35), 0.18),
+)
+"""Of a document that has none: nearly a headlight from the upper left, a fill from the right that keeps the sides of a
+box apart, a glow from below. They follow the eye."""
+
+
+def lights_of(lights: tuple[Light, ...]) -> tuple[Light, ...]:
+    """The lights of a document that has these: the program's own where there are none."""
+    return tuple(light for light in lights if light.active) if lights else PROGRAM

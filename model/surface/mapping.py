@@ -18,6 +18,12 @@ from ..document.expression import vector
 from .material import one_of, plain, words
 
 PROJECTIONS = ("natural", "planar", "box", "cylindrical", "spherical")
+KINDS = ("planar", "box", "cylindrical", "spherical", "faces", "cylinder", "torus")
+"""What is done to points: the projections, and what primitives have by nature."""
+CAP = 0.9999
+"""Cylinders and cones have caps where the normal is nearer to their axis than this cosine."""
+TIE = 2e-3
+"""Faces that look at two axes alike, as bevels do, belong to z, then to y, in spite of rounding."""
 VECTORS = {"origin": 3, "turned": 3, "size": 2, "offset": 2, "scale": 2}
 
 Floats = NDArray[np.float64]
@@ -31,7 +37,8 @@ class TextureMapping:
     box: along whichever axis the face looks at most, one copy `size` mm.
     cylindrical: once around the frame's z axis from its x axis on, one copy `size[1]` mm high.
     spherical: longitude from the frame's x axis, latitude from pole to pole, both once.
-    natural: as the kind has it (see `natural.py`), in the axes of the node that made the face.
+    natural: as the primitive that made the face has it, in its own axes: once over each face of a box, around
+    cylinders, cones, spheres and tori, and over caps; solids of other kinds as by box.
 
     The bitmap is mirrored along u or v, shifted by `offset` copies, made `scale` times as large and turned by `turn`
     degrees about the projection's origin.
@@ -97,23 +104,35 @@ def rotation_of(degrees: tuple[float, ...]) -> Floats:
     return matrix
 
 
-def projected(projection: str, size: tuple[float, ...], points: Floats, normals: Floats) -> Floats:
+def projected(kind: str, extent: tuple[float, ...], points: Floats, normals: Floats) -> Floats:
     """(n, 2) coordinates of `points` (n, 3) of faces with `normals` (n, 3), all in the projection's frame.
 
-    Around an axis they jump from 1 to 0 where the angle does: see `seamless`.
+    `kind` is one of KINDS; `extent` holds what it measures by: width and height of one copy (mm), or sizes of the
+    primitive. Around an axis the coordinates jump from 1 to 0 where the angle does: see `seamless`.
     """
     x, y, z = points.T
-    width, height = size
-    match projection:
+    a, b, c = (*extent, 1.0, 1.0, 1.0)[:3]
+    match kind:
         case "planar":
-            return np.column_stack((x / width, y / height))
+            return np.column_stack((x / a, y / b))
         case "box":
-            return box_coordinates(points, normals) / (width, height)
+            return box_coordinates(points, normals) / (a, b)
         case "cylindrical":
-            return np.column_stack((turns(x, y), z / height))
+            return np.column_stack((turns(x, y), z / b))
         case "spherical":
             return np.column_stack((turns(x, y), np.arctan2(z, np.hypot(x, y)) / np.pi + 0.5))
-    raise ValueError(projection)
+        case "faces":  # of a box from the origin to its size
+            side = sides(normals)
+            mirrored = np.column_stack((np.isin(side, (1, 2, 5)), np.zeros(len(points), bool)))
+            spans = np.array([(b, c), (b, c), (a, c), (a, c), (a, b), (a, b)])[side]
+            return box_coordinates(points, normals) / spans + mirrored
+        case "cylinder":  # of height a and radius b, from z = 0 upwards
+            cap = np.abs(normals[:, 2]) > CAP
+            across = np.column_stack((np.where(normals[:, 2] < 0.0, -x, x), y)) / (2.0 * b) + 0.5
+            return np.where(cap[:, None], across, np.column_stack((turns(x, y), z / a)))
+        case "torus":  # of radius a
+            return np.column_stack((turns(x, y), turns(np.hypot(x, y) - a, z)))
+    raise ValueError(kind)
 
 
 def turns(x: Floats, y: Floats) -> Floats:
@@ -124,8 +143,7 @@ def turns(x: Floats, y: Floats) -> Floats:
 def sides(normals: Floats) -> NDArray[np.intp]:
     """(n,) which side of a box each normal looks out of: 0 to 5 for +x, -x, +y, -y, +z, -z."""
     size = np.abs(normals)
-    # Ties go to z, then y, so that a bevel has one side in spite of rounding.
-    axis = np.where(size[:, 2] >= size[:, :2].max(axis=1) - 1e-5, 2, np.where(size[:, 1] >= size[:, 0] - 1e-5, 1, 0))
+    axis = np.where(size[:, 2] >= size[:, :2].max(axis=1) - TIE, 2, np.where(size[:, 1] >= size[:, 0] - TIE, 1, 0))
     return 2 * axis + (np.take_along_axis(normals, axis[:, None], 1)[:, 0] < 0)
 
 
