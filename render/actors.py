@@ -1,6 +1,6 @@
 """The actors of one solid: faces, feature edges, silhouette, and the outline of what is selected."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -10,11 +10,14 @@ from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from .look import Look, palette, rgb
 from .outline import Adjacency
-from .polydata import cells_of, lines_of, set_cell_colours, surface_of
-from .shading import shade, unlit
+from .polydata import cells_of, lines_of, places_in, set_cell_colours, surface_of, vtk_array
+from .shading import unlit
+from .surfaces.shader import NUMBER, POSITION
+from .surfaces.surfaces import Surfaces, shade_plain
 
 if TYPE_CHECKING:
     from ..model.solid.display import DisplayMesh
+    from ..model.surface.appearance import Appearance
     from .camera import Camera
 
 Path = tuple[str | int, ...]
@@ -48,6 +51,7 @@ class SolidActors:
         self._adjacency: Adjacency | None = None
         self._outlined: NDArray[np.bool_] = np.zeros(len(mesh.owners), bool)
         self._palette: NDArray[np.uint8] | None = None
+        self._worn: object = None
 
     @property
     def actors(self) -> tuple[vtkActor, ...]:
@@ -70,8 +74,32 @@ class SolidActors:
         lengths = sorted({len(path) for path in wanted})
         return np.array([any(owner[:n] in wanted for n in lengths) for owner in self.mesh.owners], bool)
 
-    def set_style(self, style: str, shading: str, look: Look, opacity: float, line_width: float) -> None:
-        dress_faces(self.faces, style, shading, look, opacity)
+    @property
+    def looks(self) -> "tuple[Appearance, ...]":
+        """How the owners look; none where no one wears a material."""
+        return getattr(self.colours, "looks", ())
+
+    def wear(self, numbers: NDArray[np.float32], frames: Sequence[NDArray[np.float64]]) -> None:
+        """Hand the shader the numbers (o,) of the owners' looks, and the places in the frames (3, 4) of these."""
+        worn = (numbers.tobytes(), tuple(frames[i].tobytes() for i in np.unique(numbers).astype(int).tolist()))
+        if worn == self._worn:
+            return
+        self._worn = worn
+        number = np.zeros(len(self.mesh.points), np.float32)
+        number[self.mesh.triangles] = numbers[self.mesh.owner][:, None]  # a point belongs to faces of one owner
+        data = self.surface.GetPointData()
+        mapper: Any = self.faces.GetMapper()
+        for name, values in ((NUMBER, number), (POSITION, places_in(self.mesh.points, number, frames))):
+            data.RemoveArray(name)
+            data.AddArray(vtk_array(values, np.float32, name))
+            mapper.MapDataArrayToVertexAttribute(name, name, 0, -1)
+
+    def set_style(
+        self, style: str, shading: str, look: Look, opacity: float, line_width: float, surfaces: Surfaces
+    ) -> None:
+        dressed = surfaces if self.looks else None
+        dress_faces(self.faces, style, shading, look, opacity, dressed)
+        self.faces.SetForceTranslucent(dressed is not None and surfaces.translucent(self.looks))
         self.faces.GetProperty().SetLineWidth(max(1.0, 0.5 * line_width))
         if self.mesh.sheet:
             unlit(self.faces)
@@ -139,15 +167,27 @@ def faces_actor(data: vtkPolyData) -> vtkActor:
     return actor
 
 
-def dress_faces(actor: vtkActor, style: str, shading: str, look: Look, opacity: float, pieces: bool = False) -> None:
-    """Show faces in a style; `pieces` of triangles as in `shade`."""
+def dress_faces(
+    actor: vtkActor,
+    style: str,
+    shading: str,
+    look: Look,
+    opacity: float,
+    surfaces: Surfaces | None = None,
+    pieces: bool = False,
+) -> None:
+    """Show faces in a style, in their materials where `surfaces` are given; `pieces` of triangles as in
+    `shade_plain`."""
     material = actor.GetProperty()
     if style == "wireframe":
         material.SetRepresentationToWireframe()
     else:
         material.SetRepresentationToSurface()
     if style in ("shaded", "edges"):
-        shade(actor, shading, look, pieces)
+        if surfaces is None:
+            shade_plain(actor, shading, look, pieces)
+        else:
+            surfaces.dress(actor, pieces)
         material.SetOpacity(opacity)
     else:
         unlit(actor)

@@ -8,22 +8,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..model.document.colours import rgb as colour_bytes
+from ..model.surface.light import PROGRAM
 
 if TYPE_CHECKING:
     from vtkmodules.vtkRenderingCore import vtkRenderer
 
     from ..model.solid.display import DisplayMesh
+    from ..model.surface.appearance import Appearance
 
 Colour = tuple[float, float, float]  # sRGB, 0 to 1
 
 STYLES = ("shaded", "edges", "wireframe", "hidden-line")
 HIDDEN_SURFACES = ("zbuffer", "bsp")
-SHADINGS = ("flat", "gouraud", "phong")
 THEMES = ("light", "dark")
 
-# Directions to the lights as seen from the camera (x right, y up, z towards the eye), and their strengths: nearly a
-# headlight, from the upper left; a fill from the right that keeps the sides of a box apart; a glow from below.
-LIGHTS = (((-0.45, 0.45, 1.0), 0.72), ((0.9, 0.0, 0.5), 0.25), ((-0.1, -1.0, 0.35), 0.18))
+# Directions to the program's lights as seen from the camera (x right, y up, z towards the eye), and their strengths.
+LIGHTS = tuple(
+    (tuple(-part for part in light.direction), light.intensity) for light in PROGRAM if light.kind == "directional"
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,10 +117,12 @@ OwnerColours = Sequence["str | Colour | None"] | NDArray[Any] | Callable[[int], 
 
 @dataclass(frozen=True, slots=True)
 class Paint:
-    """The colours of one solid: its own (None: the look's) and those of its owners, by index (None: the solid's)."""
+    """The colours of one solid: its own (None: the look's) and those of its owners, by index (None: the solid's); and
+    how the owners look, where any wears a material."""
 
     solid: str | Colour | None = None
     owners: tuple[str | Colour | None, ...] = ()
+    looks: "tuple[Appearance, ...]" = ()
 
 
 def check_hidden_surface(mode: str) -> None:

@@ -10,6 +10,7 @@ from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonDataModel import vtkImageData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer
 
+from ..model.surface.light import PROGRAM
 from .camera import Camera, apply
 from .ground import Ground
 from .look import Look, check_hidden_surface, look_of
@@ -17,6 +18,7 @@ from .painter.painter import Painter
 from .polydata import set_cell_colours, surface_of
 from .scene import Scene
 from .shading import unlit
+from .surfaces.surfaces import lets_light_through
 from .views import camera_of
 from .window import close, offscreen_window, pixels
 
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
     from ..model.document.document import Section
     from ..model.partition.tree import Tree
     from ..model.solid.display import DisplayMesh
+    from ..model.surface.light import Light
 
 SAMPLES = 8
 LAST_NUMBER = 2**24 - 1
@@ -43,6 +46,7 @@ def picture(
     ground: bool = False,
     sections: "Sequence[Section]" = (),
     hidden_surface: str = "zbuffer",
+    lights: "Sequence[Light]" = PROGRAM,
 ) -> NDArray[np.uint8]:
     """Solids as (mesh, colours) pairs, see `Scene.show`, in one picture (height, width, 3) of sRGB bytes.
 
@@ -50,13 +54,15 @@ def picture(
     `perspective` in degrees, or in parallel projection for None. `background` is a colour, None for the look's
     gradient, or "transparent", which gives a fourth channel with alpha (colours not multiplied by it). The active
     ones of `sections` open the solids. `hidden_surface` is one of look.HIDDEN_SURFACES; with "bsp" a tree is built.
+    `lights` see `lights_of`.
     Raises ValueError for a size, style, shading, opacity, hidden surface or view that does not exist, Refusal for such
     a colour.
     """
     clear = background == "transparent"
-    fine = (
-        2 if opacity < 1.0 and hidden_surface != "bsp" else 1
-    )  # VTK peels no multi-sampled depths: then 2 by 2 pixels make one
+    looks = {look for _, colours in solids for look in getattr(colours, "looks", ())}
+    translucent = opacity < 1.0 or any(lets_light_through(look.material) for look in looks)
+    # VTK peels no multi-sampled depths: then 2 by 2 pixels make one.
+    fine = 2 if translucent and hidden_surface != "bsp" else 1
     window = offscreen_window((fine * size[0], fine * size[1]), SAMPLES if fine == 1 else 0)
     try:
         renderer = vtkRenderer()
@@ -69,6 +75,7 @@ def picture(
         scene.set_background((0.0, 0.0, 0.0) if clear else background)
         renderer.SetBackgroundAlpha(0.0 if clear else 1.0)
         scene.set_sections(sections)
+        scene.set_lights(lights)
         scene.show({str(number): solid for number, solid in enumerate(solids)})
         scene.set_hidden_surface(hidden_surface)
         if hidden_surface == "bsp":

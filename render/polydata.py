@@ -1,5 +1,6 @@
 """A DisplayMesh as VTK data: surface and feature edges, sharing the arrays' memory wherever VTK allows it."""
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -60,3 +61,15 @@ def vtk_array(values: NDArray[Any], dtype: Any, name: str) -> Any:
     array = numpy_to_vtk(np.ascontiguousarray(values, dtype=dtype), deep=False)
     array.SetName(name)
     return array
+
+
+def places_in(
+    points: NDArray[Any], number: NDArray[np.float32], frames: Sequence[NDArray[np.float64]]
+) -> NDArray[np.float32]:
+    """(p, 3) points (p, 3), each in the frame (3, 4) of its number (p,)."""
+    places = np.zeros((len(points), 3), np.float32)
+    for i in np.unique(number).astype(int).tolist():
+        rows = number == i
+        matrix = frames[i]
+        places[rows] = points[rows] @ matrix[:, :3].T + matrix[:, 3]
+    return places

@@ -7,10 +7,12 @@ import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 
+from ..model.surface.appearance import DEFAULT
 from .actors import Path, SolidActors, dress_faces
-from .look import LIGHT, SHADINGS, STYLES, Look, check_hidden_surface, light_up, look_of, set_background
+from .look import LIGHT, STYLES, Look, check_hidden_surface, light_up, look_of, set_background
 from .painter.painter import Painter
 from .sections import Sections
+from .surfaces.surfaces import Surfaces, check_shading
 
 if TYPE_CHECKING:
     from vtkmodules.vtkRenderingCore import vtkRenderer
@@ -18,6 +20,8 @@ if TYPE_CHECKING:
     from ..model.document.document import Section
     from ..model.partition.tree import Tree
     from ..model.solid.display import DisplayMesh
+    from ..model.surface.appearance import Appearance
+    from ..model.surface.light import Light
     from .camera import Camera
 
 
@@ -41,6 +45,8 @@ class Scene:
         self._background: Any = None
         self._solids: dict[str, SolidActors] = {}
         self.sections = Sections(renderer)
+        self.surfaces = Surfaces()
+        self._worn_faces: tuple[object, ...] | None = None
         light_up(renderer)
         self._restyle()
 
@@ -53,12 +59,13 @@ class Scene:
         """
         for solid_id in [key for key in self._solids if key not in solids]:
             self._remove(solid_id)
+        fresh: list[SolidActors] = []
         for solid_id, (mesh, colours) in solids.items():
             entry = self._solids.get(solid_id)
             if entry is not None and entry.mesh is mesh:
                 if entry.colours is not colours and not _same(entry.colours, colours):
                     entry.colours = colours
-                    self._paint(entry)
+                    fresh.append(entry)
                 continue
             if entry is not None:
                 self._remove(solid_id)
@@ -67,8 +74,13 @@ class Scene:
             for actor in entry.actors:
                 self.renderer.AddActor(actor)
             self.sections.clip(entry.actors)
+            fresh.append(entry)
+        everything = self._wear()
+        for entry in self._solids.values() if everything else fresh:
             self._style(entry)
             self._paint(entry)
+        if everything or any(entry.looks for entry in fresh):
+            self._style_painter()
         self.sections.set_solids(
             {key: (entry.mesh, entry.colours) for key, entry in self._solids.items() if not entry.mesh.sheet}
         )
@@ -109,7 +121,17 @@ class Scene:
     @property
     def peeling(self) -> bool:
         """Whether translucent faces are depth-peeled."""
-        return self.opacity < 1.0 and not self.painting
+        return self.translucent and not self.painting
+
+    @property
+    def translucent(self) -> bool:
+        """Whether light comes through any face."""
+        looks = (look for entry in self._solids.values() for look in entry.looks)
+        return self.opacity < 1.0 or self.surfaces.translucent(looks)
+
+    def set_lights(self, lights: "Sequence[Light]") -> None:
+        """Light the faces by these; see `lights_of`."""
+        self.surfaces.lights = tuple(lights)
 
     @property
     def meshes(self) -> dict[str, "DisplayMesh"]:
@@ -148,9 +170,8 @@ class Scene:
             self._restyle()
 
     def set_shading(self, shading: str) -> None:
-        """One of look.SHADINGS, else ValueError."""
-        if shading not in SHADINGS:
-            raise ValueError(f"no shading is called {shading!r}: take one of {', '.join(SHADINGS)}")
+        """One of material.SHADINGS, else ValueError."""
+        check_shading(shading)
         if shading != self.shading:
             self.shading = shading
             self._restyle()
@@ -194,6 +215,8 @@ class Scene:
         `ground` is the height of the ground's lines, which translucent faces are blended below and above.
         """
         self._order_faces(camera, ground)
+        lit = (*self.painter.actors, *(entry.faces for entry in self._solids.values() if not entry.mesh.sheet))
+        self.surfaces.turn(lit, camera)
         if self.style in ("wireframe", "hidden-line"):
             for entry in self._solids.values():
                 entry.turn_silhouette(camera)
@@ -221,6 +244,7 @@ class Scene:
         if self.painter.tree is not tree or self.painter.meshes != meshes:
             self.painter.show(tree, meshes)
             self._face_colours = ()
+            self._worn_faces = None
         colours = tuple(self._solids[key].face_colours for key in self._tree_meshes)
         if len(colours) != len(self._face_colours) or any(
             a is not b for a, b in zip(colours, self._face_colours, strict=True)
@@ -230,9 +254,10 @@ class Scene:
                 palette[m.owner, m.subtracted.astype(np.intp)] for palette, m in zip(colours, meshes, strict=True)
             ]
             self.painter.colour(np.concatenate([*by_face, np.zeros((0, 3), np.uint8)]))
+        self._dress_painter(self._solids[key] for key in self._tree_meshes)
         lit = self.style in ("shaded", "edges")
-        self.painter.light_at_corners(lit and self.shading == "gouraud")
-        opaque = not lit or self.opacity >= 1.0
+        self.painter.light_at_corners(lit and self._lights_corners)
+        opaque = not lit or not self.translucent
         self.painter.turn(camera, opaque, not self.sections.planes, ground)
 
     def _remove(self, solid_id: str) -> None:
@@ -245,11 +270,52 @@ class Scene:
         self.renderer.SetUseOIT(False)
         self.renderer.SetMaximumNumberOfPeels(24)
         self.renderer.SetOcclusionRatio(0.0)
-        for actor in self.painter.actors:
-            dress_faces(actor, self.style, self.shading, self.look, self.opacity, pieces=True)
+        self._wear()
+        self._style_painter()
         for entry in self._solids.values():
             self._style(entry)
             self._paint(entry)
+
+    @property
+    def _looks(self) -> "list[Appearance]":
+        """Of all owners; none where nobody wears a material."""
+        looks = [look for entry in self._solids.values() for look in entry.looks]
+        return [DEFAULT, *looks] if looks else []
+
+    @property
+    def _lights_corners(self) -> bool:
+        shadings = {look.material.shading for look in self._looks if look.material is not None}
+        return any(shading.startswith("gouraud") for shading in (self.shading, *shadings))
+
+    def _wear(self) -> bool:
+        """Bring the table of materials up to date; whether all shaders have to be."""
+        changed = self.surfaces.wear(self._looks, self.shading, self.look)
+        for entry in self._solids.values():
+            if entry.looks:
+                entry.wear(self.surfaces.numbers(entry.looks), self.surfaces.frames)
+        return changed
+
+    def _dress_painter(self, entries: Iterable[SolidActors]) -> None:
+        """Hand the painter what its faces wear, where that has changed."""
+        if not self._looks:
+            self.painter.wear(None)
+            return
+        entries = list(entries)
+        worn = tuple((entry.looks, entry.mesh) for entry in entries), self._looks
+        if worn == self._worn_faces:
+            return
+        self._worn_faces = worn
+        of_face = []
+        for entry in entries:
+            numbers = self.surfaces.numbers(entry.looks or [DEFAULT] * max(len(entry.mesh.owners), 1))
+            of_face.append(numbers[entry.mesh.owner])
+        self.painter.wear(np.concatenate([*of_face, np.zeros(0, np.float32)]), self.surfaces.frames)
+
+    def _style_painter(self) -> None:
+        dressed = self.surfaces if self._looks else None
+        for actor in self.painter.actors:
+            dress_faces(actor, self.style, self.shading, self.look, self.opacity, dressed, pieces=True)
+            actor.SetForceTranslucent(dressed is not None and self.translucent)
 
     @property
     def _ground(self) -> Any:
@@ -260,7 +326,7 @@ class Scene:
         return 1.25 * self.line_scale
 
     def _style(self, entry: SolidActors) -> None:
-        entry.set_style(self.style, self.shading, self.look, self.opacity, self._line_width)
+        entry.set_style(self.style, self.shading, self.look, self.opacity, self._line_width, self.surfaces)
 
     def _paint(self, entry: SolidActors) -> None:
         entry.paint(self.style, self.look, self.selection, self.hover, self._ground)

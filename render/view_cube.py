@@ -65,7 +65,7 @@ class ViewCube:
 
     def set_look(self, look: Look) -> None:
         self._look = look
-        shade(self._faces, "flat", look)
+        shade(self._faces, look, flat=True)
         self._faces.GetProperty().SetAmbient(0.55)
         self._faces.GetProperty().SetDiffuse(0.5)
         for actor in (self._labels, self._rims, self._axes):

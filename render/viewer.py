@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from ..model.document.document import Section
     from ..model.partition.tree import Tree
     from ..model.solid.display import DisplayMesh
+    from ..model.surface.light import Light
 
 
 class Viewer:
@@ -148,8 +149,13 @@ class Viewer:
         self.needs_render = True
 
     def set_shading(self, shading: str) -> None:
-        """One of look.SHADINGS; ValueError for another."""
+        """One of material.SHADINGS; ValueError for another."""
         self.scene.set_shading(shading)
+        self.needs_render = True
+
+    def set_lights(self, lights: "Sequence[Light]") -> None:
+        """See `Scene.set_lights`."""
+        self.scene.set_lights(lights)
         self.needs_render = True
 
     def set_opacity(self, opacity: float) -> None:

@@ -14,9 +14,10 @@ from solidtree.model.partition.build import build
 from solidtree.model.partition.faces import faces_of_meshes, joined
 from solidtree.model.partition.textbook import build_in_order
 from solidtree.model.solid.display import display_mesh
+from solidtree.model.surface.material import SHADINGS
 from solidtree.render.actors import faces_actor
 from solidtree.render.camera import Camera, apply, orbit
-from solidtree.render.look import SHADINGS, STYLES, Paint
+from solidtree.render.look import STYLES, Paint
 from solidtree.render.painter.closed import is_closed
 from solidtree.render.painter.corners import corners_of
 from solidtree.render.painter.painter import Painter

@@ -79,10 +79,14 @@ def test_owner_maps_of_the_hidden_surface_scenes(corpus):
 
 
 def test_light_on_a_face_is_lamberts():
-    """A face square to the view direction: ambient, and each light's share by its cosine; no highlight when flat."""
+    """A face square to the view direction: ambient, each light's share by its cosine, and its highlight."""
     colours = picture([(box((-10, 0, -10), (10, 5, 10)), Paint("#8090a0"))], SIZE, FRONT, shading="flat")
     share = sum(strength * direction[2] / np.linalg.norm(direction) for direction, strength in LIGHTS)
-    wanted = 255.0 * np.array(rgb("#8090a0")) * min(LIGHT.ambient + LIGHT.diffuse * share, 1.0)
+    towards = np.array([direction for direction, _ in LIGHTS]) / [[np.linalg.norm(d)] for d, _ in LIGHTS]
+    halfway = towards + (0.0, 0.0, 1.0)
+    shine = (halfway[:, 2] / np.linalg.norm(halfway, axis=1)) ** LIGHT.specular_power
+    highlight = LIGHT.specular * float(shine @ [strength for _, strength in LIGHTS])
+    wanted = 255.0 * np.minimum(np.array(rgb("#8090a0")) * (LIGHT.ambient + LIGHT.diffuse * share) + highlight, 1.0)
     assert np.abs(colours[60, 80].astype(float) - wanted).max() <= 1.0
 
 

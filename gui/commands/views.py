@@ -25,6 +25,12 @@ STYLES = (
     ("wireframe", "Wireframe", "Alt+3", "Every edge, nothing hidden"),
     ("hidden-line", "Hidden line", "Alt+4", "Edges without those behind faces"),
 )
+SHADINGS = (
+    ("flat", "Flat", "One intensity for each face"),
+    ("gouraud", "Gouraud", "Light at the vertices, interpolated over the faces"),
+    ("gouraud-diffuse", "Gouraud without highlights", "Diffuse light at the vertices, interpolated over the faces"),
+    ("phong", "Phong", "Light at every pixel, from interpolated normals"),
+)
 THEMES = (("system", "As the system"), ("light", "Light"), ("dark", "Dark"))
 
 
@@ -54,6 +60,10 @@ def _invert(window: MainWindow) -> None:
     chosen = set(window.session.selection)
     roots = window.session.document.standing
     window.session.select([root.id for root in roots if not any(node.id in chosen for node in walk(root))])
+
+
+def _shade(window: MainWindow, shading: str, title: str) -> None:
+    window.session.do("set_shading", shading, label=f"{title} shading")
 
 
 def _shortcuts(window: MainWindow) -> None:
@@ -138,6 +148,12 @@ VIEW_COMMANDS: tuple[Command, ...] = (
         Command(f"style_{name}", title, "View/Style", lambda w, name=name: w.looks.set_style(name), shortcut=keys,
                 icon=name, tip=tip, checked=lambda w, name=name: w.looks.style == name)
         for name, title, keys, tip in STYLES
+    ),
+    *(
+        Command(f"shading_{name}", title, "View/Shading", lambda w, name=name, title=title: _shade(w, name, title),
+                tip=f"{tip}; kept with the document, for all that has no shading of its own",
+                checked=lambda w, name=name: (w.session.document.shading or "phong") == name)
+        for name, title, tip in SHADINGS
     ),
     *(
         Command(f"theme_{name}", title, "View/Theme", lambda w, name=name: w.theme.choose(name),

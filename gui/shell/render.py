@@ -7,9 +7,12 @@ import re
 from typing import TYPE_CHECKING
 
 from ...model.document.colours import hex_colour, rgb
-from ...model.document.document import Section
+from ...model.document.document import Document, Section
 from ...model.document.errors import Refusal
 from ...model.operations.sections import MOST_ACTIVE
+from ...model.surface.appearance import appearances, is_dressed
+from ...model.surface.light import lights_of
+from ...model.surface.material import SHADINGS
 from ..command_line import NOT_IN_ORDER, TOLERANCE, Bar, complain, positive, warn
 from .messages import told
 from .parameters import add_options as add_parameter_options
@@ -32,7 +35,7 @@ def add_options(command: argparse.ArgumentParser) -> None:
     add_view_options(command)
     command.add_argument("--hidden-surface", choices=("zbuffer", "bsp"), default="zbuffer", help="default zbuffer")
     command.add_argument("--style", choices=("shaded", "edges", "wireframe", "hidden-line"), default="shaded")
-    command.add_argument("--shading", choices=("flat", "gouraud", "phong"), default="phong")
+    command.add_argument("--shading", choices=SHADINGS, help="default that of the document, else phong")
     command.add_argument("--opacity", type=_share, default=1.0, metavar="A", help="from 0 to 1")
     command.add_argument(
         "--colours",
@@ -155,18 +158,21 @@ def render(options: argparse.Namespace) -> int:
     view, perspective = _camera(options, meshes)
     if options.ids is not None:
         numbers = picture.facet_numbers(meshes) if options.ids == "faces" else None
-        pixels = picture.ids_picture(meshes, options.size, view, numbers=numbers, perspective=perspective)
+        pixels = picture.ids_picture(meshes, options.size, view, numbers=numbers, perspective=perspective,
+                                     hidden_surface=options.hidden_surface)  # fmt: skip
     else:
         pixels = picture.picture(
-            [(mesh, _paint(root, options.colours == "nodes")) for root, mesh in shown],
+            [(mesh, _paint(document, root, mesh, options.colours == "nodes")) for root, mesh in shown],
             options.size,
             view,
             style=options.style,
-            shading=options.shading,
+            shading=options.shading or document.shading or "phong",
             opacity=options.opacity,
             background=background,
             perspective=perspective,
             sections=sections,
+            hidden_surface=options.hidden_surface,
+            lights=lights_of(document.lights),
         )
     try:
         picture.write_png(options.out, pixels)
@@ -193,7 +199,7 @@ def _numbers(section: Section) -> str:
     return ":".join(",".join(f"{value:g}" for value in values) for values in (section.point, section.normal))
 
 
-def _paint(root: Node, by_node: bool) -> Paint:
+def _paint(document: Document, root: Node, mesh: DisplayMesh, by_node: bool) -> Paint:
     from ...model.document.distinct_colours import distinct_colour
     from ...model.solid.provenance import occurrences
     from ...render.look import Paint
@@ -201,6 +207,9 @@ def _paint(root: Node, by_node: bool) -> Paint:
     found = occurrences(root)
     if by_node:
         return Paint(None, tuple(distinct_colour(occurrence.leaf.id) for occurrence in found))
+    if not mesh.sheet and is_dressed(document, root):
+        looks = appearances(document, root, mesh.owners)
+        return Paint(root.colour, tuple(look.colour for look in looks), looks)
     return Paint(root.colour, tuple(occurrence.colour for occurrence in found))
 
 

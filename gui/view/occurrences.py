@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from ...model.document.document import Document
 from ...model.document.nodes import Node
 from ...model.document.tree import walk
+from ...model.surface.appearance import appearances, is_dressed
 
 if TYPE_CHECKING:
     from ...model.solid.display import DisplayMesh
@@ -50,15 +51,20 @@ def selected_bounds(ids: Iterable[str], meshes: Iterable[DisplayMesh]) -> NDArra
     return np.array([np.min(lower, axis=0), np.max(upper, axis=0)], float)
 
 
-def paint_of(document: Document, root: Node, mesh: DisplayMesh, by_node: bool = False) -> Paint:
+def paint_of(
+    document: Document, root: Node, mesh: DisplayMesh, by_node: bool = False, resolved: Node | None = None
+) -> Paint:
     """Each owner's colour: that of the lowest coloured node on its path below the root, the root's by default; or one
-    for each node that made faces, whatever its colour."""
+    for each node that made faces, whatever its colour. And what it wears, where the `resolved` root is given."""
     from ...render.look import Paint
 
     if by_node:
         from ...model.document.distinct_colours import distinct_colour
 
         return Paint(None, tuple(distinct_colour(maker_of(path)) for path in mesh.owners))
+    if resolved is not None and is_dressed(document, root):
+        looks = appearances(document, resolved, mesh.owners)
+        return Paint(root.colour, tuple(look.colour for look in looks), looks)
     nodes = (node for node in walk(root, *document.definitions) if node is not root)
     colours = {node.id: node.colour for node in nodes if node.colour is not None}
     if not colours:

@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ...model.document.document import Document
+from ...model.document.nodes import Node
+from ...model.document.resolve import Resolver
 from .occurrences import paint_of
 
 
@@ -13,13 +15,14 @@ class Painted:
     """`by_node` tints each face by the node that made it, instead of the nodes' own colours."""
 
     def __init__(self) -> None:
-        self._kept: dict[str, tuple[Any, Any, Any, Any]] = {}
+        self._kept: dict[str, tuple[Any, ...]] = {}
         self._by_node = False
+        self._resolver = Resolver()
 
     @property
     def meshes(self) -> list[Any]:
         """What `of` gave last."""
-        return [mesh for _, _, mesh, _ in self._kept.values()]
+        return [kept[1] for kept in self._kept.values()]
 
     def set_by_node(self, by_node: bool) -> bool:
         """Whether that is another choice."""
@@ -32,13 +35,18 @@ class Painted:
     def of(self, document: Document, meshes: Mapping[str, Any]) -> dict[str, tuple[Any, Any]]:
         """The mesh and the paint of each visible solid or profile that has faces, by its id."""
         kept = {}
+        resolved: dict[str, Node] = {}
+        if document.materials:
+            resolved = {root.id: root for root in self._resolver.resolve(document).standing}
         for root in document.standing:
             mesh = meshes.get(root.id)
             if mesh is None or not root.visible or not len(mesh.triangles):
                 continue
             old = self._kept.get(root.id)
-            if old is None or old[0] is not root or old[1] is not document.definitions or old[2] is not mesh:
-                old = (root, document.definitions, mesh, paint_of(document, root, mesh, self._by_node))
+            made_of = (root, mesh, document.definitions, document.materials, resolved.get(root.id))
+            if old is None or any(a is not b for a, b in zip(old, made_of, strict=False)):
+                paint = paint_of(document, root, mesh, self._by_node, None if mesh.sheet else resolved.get(root.id))
+                old = (*made_of, paint)
             kept[root.id] = old
         self._kept = kept
-        return {root_id: (mesh, paint) for root_id, (_, _, mesh, paint) in kept.items()}
+        return {root_id: (made[1], made[-1]) for root_id, made in kept.items()}

@@ -11,6 +11,7 @@ from PySide6.QtGui import QHelpEvent, QKeyEvent, QMouseEvent, QWheelEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from ...model.editing.session import Session, State
+from ...model.surface.light import lights_of
 from .canvas import Canvas
 from .flight import Flight
 from .occurrences import Path, paths_through, selected_bounds
@@ -145,7 +146,10 @@ class Viewport(Canvas):
     def _show(self) -> None:
         if self.viewer is None:
             return
-        shown = self._painted.of(self._session.view, self._meshes)
+        document = self._session.view
+        shown = self._painted.of(document, self._meshes)
+        self.viewer.set_shading(document.shading or "phong")
+        self.viewer.set_lights(lights_of(document.lights))
         self.viewer.show(shown)
         self.displayed.emit({root_id: mesh for root_id, (mesh, _) in shown.items() if not mesh.sheet})
         self._highlight()

@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 SMOOTH = np.cos(np.radians(35))
 """Facets that meet at less than this share a normal."""
+COARSE = np.cos(np.radians(70))
+"""The same for spheres and tori, whose coarsest facets are those of an octahedron cut in four."""
 FEATURE = np.cos(np.radians(25))
 """Facets of one owner that meet at more than this have an edge between them."""
 SEAM = np.cos(np.radians(10))
@@ -50,9 +52,10 @@ def display_mesh(
     owner_of_run: NDArray[np.int32],
     owners: tuple[Path, ...] = (),
     convex: NDArray[np.bool_] | None = None,
+    smooth: NDArray[np.bool_] | None = None,
 ) -> DisplayMesh:
     """The picture's side of a result of manifold3d. `owner_of_run` as from provenance.owners_of_runs; `convex` (o,)
-    where it is known."""
+    where it is known, `smooth` (o,) which owners have no creases however coarse they are."""
     convex = np.zeros(len(owners), dtype=bool) if convex is None else convex
     points = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3]
     triangles = np.asarray(mesh.tri_verts).astype(np.int64)
@@ -84,7 +87,10 @@ def display_mesh(
     angle = np.bincount(corner_point, _angles(sides).reshape(-1), len(pairs)).astype(np.float64)
     owner_of_facet = np.empty(facets, dtype=np.int64)
     owner_of_facet[facet] = 2 * owner + subtracted
-    normals = _smooth(vertex, facet_normal[pair_facet], angle, owner_of_facet[pair_facet])
+    least = np.full(2 * len(owners) + 2, SMOOTH)
+    if smooth is not None:
+        least[: 2 * len(smooth)] = np.where(np.repeat(smooth, 2), COARSE, SMOOTH)
+    normals = _smooth(vertex, facet_normal[pair_facet], angle, owner_of_facet[pair_facet], least)
 
     edges, edge_sides = _feature_edges(triangles, facet, facet_normal, owner_of_facet, len(points))
     used, edge_ends = np.unique(edges, return_inverse=True)
@@ -157,9 +163,14 @@ def _angles(sides: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _smooth(
-    vertex: NDArray[np.int64], normal: NDArray[np.float64], angle: NDArray[np.float64], owner: NDArray[np.int64]
+    vertex: NDArray[np.int64],
+    normal: NDArray[np.float64],
+    angle: NDArray[np.float64],
+    owner: NDArray[np.int64],
+    least: NDArray[np.float64],
 ) -> NDArray[np.float64]:
-    """(p, 3) normals of points sorted by vertex: the angle-weighted mean over facets that meet there smoothly."""
+    """(p, 3) normals of points sorted by vertex: the angle-weighted mean over facets that meet there at a cosine above
+    the `least` of their owner."""
     first = np.flatnonzero(np.diff(vertex, prepend=-1))
     size = np.diff(first, append=len(vertex))
     group = np.repeat(np.arange(len(first)), size)
@@ -171,7 +182,7 @@ def _smooth(
     later = np.where(around > 0, around - 1 - place, 0)
     one = np.repeat(np.arange(len(vertex)), later)
     other = one + 1 + np.arange(len(one)) - np.repeat(np.cumsum(later) - later, later)
-    meets = (owner[one] == owner[other]) & (np.einsum("ij,ij->i", normal[one], normal[other]) > SMOOTH)
+    meets = (owner[one] == owner[other]) & (np.einsum("ij,ij->i", normal[one], normal[other]) > least[owner[one]])
     one, other = one[meets], other[meets]
     weighted = normal * angle[:, None]
     total = weighted + _sums(one, weighted[other], len(vertex)) + _sums(other, weighted[one], len(vertex))

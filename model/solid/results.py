@@ -13,7 +13,7 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Hull, Node
 from ..document.outlines import Lettering, TextOnPath
-from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Sphere, Torus
 from ..document.resolve import Resolver
 from ..measuring.measure import Measures, measure
 from ..path.path import Path
@@ -27,6 +27,9 @@ from .tessellation import DEFAULT_TOLERANCE
 
 CONVEX = (Box, Sphere, Cylinder, Cone, Halfspace, Hull)
 """Kinds that are convex whatever their numbers."""
+
+SMOOTH = (Sphere, Torus)
+"""Kinds without creases."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -142,7 +145,8 @@ def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
     mesh = solid.to_mesh64()
     owner = owners_of_runs(mesh, root, evaluator.originals, found)
     convex = np.array([isinstance(occurrence.leaf, CONVEX) for occurrence in found], dtype=bool)
-    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found), convex)
+    smooth = np.array([isinstance(occurrence.leaf, SMOOTH) for occurrence in found], dtype=bool)
+    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found), convex, smooth)
 
 
 @dataclass(frozen=True, slots=True)

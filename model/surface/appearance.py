@@ -46,6 +46,10 @@ class Appearance:
         return np.array(self.frame).reshape(3, 4)
 
 
+DEFAULT = Appearance(None, None, TextureMapping(), "box", (20.0, 20.0), tuple(IDENTITY.reshape(-1).tolist()))
+"""Of what wears nothing."""
+
+
 def appearances(document: Document, root: Node, owners: Sequence[Path]) -> tuple[Appearance, ...]:
     """Of each owner of a mesh of `root`, a solid of a resolved tree; `document` tells of materials."""
     from ..solid.provenance import occurrences
@@ -68,7 +72,7 @@ def _appearance(
     occurrence: Occurrence | None, materials: dict[str, Material], matrices: dict[Path, Floats]
 ) -> Appearance:
     if occurrence is None:
-        return Appearance(None, None, TextureMapping(), "box", (20.0, 20.0), tuple(IDENTITY.reshape(-1).tolist()))
+        return DEFAULT
     nodes = occurrence.nodes
     worn = next((i for i in reversed(range(len(nodes))) if nodes[i].material in materials), -1)
     material = materials[str(nodes[worn].material)] if worn >= 0 else None

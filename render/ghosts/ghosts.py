@@ -216,7 +216,7 @@ class _Pass:
         if self._strength.lit:
             # Both sides would double the tint, and the far side of a drill lies in the wall of its hole.
             material.BackfaceCullingOn()
-            shade(faces, "phong", look)
+            shade(faces, look)
             material.SetSpecular(0.0)
             material.SetAmbient(0.45)
             material.SetDiffuse(0.6)

@@ -34,6 +34,11 @@ class Corners:
         a, b, c = np.moveaxis(_joined(self.triangle_normals)[self.face], 1, 0)
         return np.ascontiguousarray(a), np.ascontiguousarray(b), np.ascontiguousarray(c)
 
+    def corner_points(self) -> tuple[Singles, Singles, Singles]:
+        """The places (c, 3) of the three corners of each one's triangle."""
+        a, b, c = np.moveaxis(_joined([mesh.points[mesh.triangles] for mesh in self.meshes])[self.face], 1, 0)
+        return np.ascontiguousarray(a), np.ascontiguousarray(b), np.ascontiguousarray(c)
+
 
 def corners_of(tree: Tree, meshes: Sequence[DisplayMesh], before: Corners | None = None) -> Corners:
     """The corners of a tree over the triangles of the meshes, one mesh after the other.

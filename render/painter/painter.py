@@ -12,8 +12,8 @@ from vtkmodules.vtkCommonDataModel import vtkPlane, vtkPolyData
 from ...model.partition.order import Sorter, heights
 from ..actors import faces_actor
 from ..camera import frame
-from ..polydata import cells_of, points_of, set_point_colours, vtk_array
-from ..shading import CORNER_NORMALS, CORNER_WEIGHTS
+from ..polydata import cells_of, places_in, points_of, set_point_colours, vtk_array
+from ..surfaces.shader import CORNER_NORMALS, CORNER_POINTS, CORNER_WEIGHTS, NUMBER, POSITION
 from .closed import is_closed
 from .corners import Corners, corners_of
 from .depth import DepthAlways
@@ -118,17 +118,34 @@ class Painter:
         if corners is None or wanted == bool(data.HasArray(CORNER_WEIGHTS)) == self._lit_at_corners:
             return
         self._lit_at_corners = wanted
-        names = (*CORNER_NORMALS, CORNER_WEIGHTS)
-        values = (*corners.corner_normals(), corners.weights) if wanted else ()
+        names = (*CORNER_NORMALS, *CORNER_POINTS, CORNER_WEIGHTS)
+        values = (*corners.corner_normals(), *corners.corner_points(), corners.weights) if wanted else ()
+        self._set_attributes(names, values)
+
+    def wear(self, numbers: NDArray[np.float32] | None, frames: Sequence[NDArray[np.float64]] = ()) -> None:
+        """Hand the shader the numbers (m,) of the faces' looks, and the places in the frames (3, 4) of these numbers;
+        None takes them away."""
+        corners = self._corners
+        if corners is None or (numbers is None and not self._data.GetPointData().HasArray(NUMBER)):
+            return
+        values: tuple[NDArray[np.float32], ...] = ()
+        if numbers is not None:
+            number = numbers[corners.face]
+            values = (number, places_in(corners.points, number, frames))
+        self._set_attributes((NUMBER, POSITION), values)
+
+    def _set_attributes(self, names: Sequence[str], values: Sequence[NDArray[np.float32]]) -> None:
+        """Vertex attributes for the shader, or none of these names."""
+        data = self._data.GetPointData()
         for name in names:
             data.RemoveArray(name)
         for name, array in zip(names, values, strict=False):
             data.AddArray(vtk_array(array, np.float32, name))
         for actor in self.actors:
-            mapper = _mapper(actor)
-            mapper.RemoveAllVertexAttributeMappings()
+            for name in names:
+                _mapper(actor).RemoveVertexAttributeMapping(name)
             for name in names[: len(values)]:
-                mapper.MapDataArrayToVertexAttribute(name, name, 0, -1)
+                _mapper(actor).MapDataArrayToVertexAttribute(name, name, 0, -1)
 
     def hide(self) -> None:
         for actor in (*self.actors, self._depth.restorer):

@@ -1,0 +1,1 @@
+"""How faces take light: the shader of the textbook's intensity equation, textures, bumps, lights."""
