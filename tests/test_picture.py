@@ -83,7 +83,7 @@ def test_light_on_a_face_is_lamberts():
     colours = picture([(box((-10, 0, -10), (10, 5, 10)), Paint("#8090a0"))], SIZE, FRONT, shading="flat")
     share = sum(strength * direction[2] / np.linalg.norm(direction) for direction, strength in LIGHTS)
     towards = np.array([direction for direction, _ in LIGHTS]) / [[np.linalg.norm(d)] for d, _ in LIGHTS]
-    halfway = towards + (0.0, 0.0, 1.0)
+    halfway = towards + np.array((0.0, 0.0, 1.0))
     shine = (halfway[:, 2] / np.linalg.norm(halfway, axis=1)) ** LIGHT.specular_power
     highlight = LIGHT.specular * float(shine @ [strength for _, strength in LIGHTS])
     wanted = 255.0 * np.minimum(np.array(rgb("#8090a0")) * (LIGHT.ambient + LIGHT.diffuse * share) + highlight, 1.0)
