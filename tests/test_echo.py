@@ -14,7 +14,19 @@ from solidtree.model.document.primitives import Polyhedron
 from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered
 from solidtree.model.editing.echo import call, script_of
-from solidtree.model.script import box, circle, cylinder, difference, extrude, instance, parameter, polar_array, sphere
+from solidtree.model.script import (
+    box,
+    circle,
+    cylinder,
+    difference,
+    extrude,
+    instance,
+    material,
+    parameter,
+    polar_array,
+    sphere,
+    texture,
+)
 
 NAMES = {name: getattr(script, name) for name in script.__all__}
 WIDTH = parameter("width", 3)
@@ -57,6 +69,8 @@ def test_every_kind_is_made_by_its_function(kind):
         box(1).with_(placement=Placement((Move((0, 0, 0)), Scale((1, 2, 3)), Reflect((1, 0, 0))))),
         box(1).with_(placement=Placement((Move((1, 1, 1)), Move((-1, -1, -1)), Affine(tuple(range(12)))))),
         box(Expression("5")),
+        box(1).dressed(material("red", "Plastic", bump="ab" * 32, key="white")),
+        (box(1).dressed("red") + box(2)).dressed(texture(projection="box", size=(5, 5), mirror=(True, False), turn=30)),
     ],
 )
 def test_what_is_written_makes_the_same_node(node):

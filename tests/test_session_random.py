@@ -24,6 +24,8 @@ from solidtree.model.script import box, document_of, parameter, sphere, union
 from solidtree.model.solid.evaluate import Evaluator
 from solidtree.model.solid.outlines.profiles import profile_of
 
+WITH_KEYWORDS = ("set_fields", "set_section", "make_solid", "engrave", "add_material", "set_material", "set_mapping",
+                 "add_light", "set_light")  # fmt: skip
 DRAWN, SEEDS = 1500, 4  # of which a good third is refused: more than two thousand edits in all
 
 
@@ -169,6 +171,18 @@ def random_step(draw, document):
             *([step()] if draw.random() < 0.5 else []),
             {"depth": number, "raised": draw.choice([True, False]), "radius": draw.choice([None, 9])},
         ),
+        lambda: ("add_material", label, draw.choice([None, "Brass", "gone"]), {"opacity": draw.choice([0.5, number])}),
+        lambda: ("set_material", label, {draw.choice(["colour", "shininess", "texture", "gone"]): value}),
+        lambda: ("rename_material", label, draw.choice(["a", "b", ""])),
+        lambda: ("delete_material", label),
+        lambda: ("use_material", many(), draw.choice([None, label])),
+        lambda: ("set_mapping", many(), draw.choice([None, "box", "gone"]), {"size": draw.choice([(5, 5), vector])}),
+        lambda: ("set_mapping", many()),
+        lambda: ("add_light", label, draw.choice(["point", "ambient", "gone"]), {"position": vector}),
+        lambda: ("set_light", label, {"direction": vector, "active": draw.choice([True, False])}),
+        lambda: ("rename_light", label, draw.choice(["a", "b", ""])),
+        lambda: ("delete_light", label),
+        lambda: ("set_shading", draw.choice([None, "flat", "gone"])),
         lambda: (draw.choice(["carry_font", "release_font"]), font),
         lambda: ("copy_font", font, draw.choice(["copy", "GFS Didot", ""])),
         lambda: ("edit_glyphs", font, {draw.choice(["A", "g", "gone"]): glyph}),
@@ -207,7 +221,7 @@ def random_step(draw, document):
 def call(step):
     """Arguments and keywords of a drawn step; a dictionary that comes last may stand for keywords."""
     name, *arguments = step
-    if name in ("set_fields", "set_section", "make_solid", "engrave") and isinstance(arguments[-1], dict):
+    if name in WITH_KEYWORDS and isinstance(arguments[-1], dict):
         return name, arguments[:-1], arguments[-1]
     return name, arguments, {}
 
@@ -254,6 +268,8 @@ def check(document):
     for one in document.sets:
         assert {name for name, _ in one.values} <= known
     assert sum(section.active for section in document.sections) <= 6
+    worn = {node.material for node in walk(*document.roots)} - {""}
+    assert worn <= {material.name for material in document.materials}
     assert not any(is_outline(root, document.definitions) for root in document.solids)
     assert all(is_outline(root, document.definitions) for root in document.profiles)
     assert len(resolve(document).standing) == len(document.standing)
