@@ -13,7 +13,7 @@ from .outline import Adjacency
 from .polydata import cells_of, lines_of, places_in, set_cell_colours, surface_of, vtk_array
 from .shading import unlit
 from .surfaces.shader import NUMBER, POSITION
-from .surfaces.surfaces import Surfaces, shade_plain
+from .surfaces.surfaces import Surfaces
 
 if TYPE_CHECKING:
     from ..model.solid.display import DisplayMesh
@@ -97,9 +97,8 @@ class SolidActors:
     def set_style(
         self, style: str, shading: str, look: Look, opacity: float, line_width: float, surfaces: Surfaces
     ) -> None:
-        dressed = surfaces if self.looks else None
-        dress_faces(self.faces, style, shading, look, opacity, dressed)
-        self.faces.SetForceTranslucent(dressed is not None and surfaces.translucent(self.looks))
+        dress_faces(self.faces, style, shading, look, opacity, surfaces, dressed=bool(self.looks))
+        self.faces.SetForceTranslucent(bool(self.looks) and surfaces.translucent(self.looks))
         self.faces.GetProperty().SetLineWidth(max(1.0, 0.5 * line_width))
         if self.mesh.sheet:
             unlit(self.faces)
@@ -173,21 +172,21 @@ def dress_faces(
     shading: str,
     look: Look,
     opacity: float,
-    surfaces: Surfaces | None = None,
+    surfaces: Surfaces,
+    dressed: bool = False,
     pieces: bool = False,
 ) -> None:
-    """Show faces in a style, in their materials where `surfaces` are given; `pieces` of triangles as in
-    `shade_plain`."""
+    """Show faces in a style, `dressed` ones in their materials; `pieces` of triangles as in `Surfaces.shade`."""
     material = actor.GetProperty()
     if style == "wireframe":
         material.SetRepresentationToWireframe()
     else:
         material.SetRepresentationToSurface()
     if style in ("shaded", "edges"):
-        if surfaces is None:
-            shade_plain(actor, shading, look, pieces)
-        else:
+        if dressed:
             surfaces.dress(actor, pieces)
+        else:
+            surfaces.shade(actor, shading, look, pieces)
         material.SetOpacity(opacity)
     else:
         unlit(actor)

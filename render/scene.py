@@ -131,7 +131,10 @@ class Scene:
 
     def set_lights(self, lights: "Sequence[Light]") -> None:
         """Light the faces by these; see `lights_of`."""
+        before = self.surfaces.casting
         self.surfaces.lights = tuple(lights)
+        if self.surfaces.casting != before:
+            self._restyle()
 
     @property
     def meshes(self) -> dict[str, "DisplayMesh"]:
@@ -209,14 +212,20 @@ class Scene:
         lower, upper = np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]
         return np.array([lower, upper], float)
 
+    @property
+    def _solid_bounds(self) -> NDArray[np.float64] | None:
+        boxes = [np.reshape(mesh.bounds, (2, 3)) for mesh in self.solid_meshes.values() if len(mesh.triangles)]
+        return np.array([np.min(boxes, axis=(0, 1)), np.max(boxes, axis=(0, 1))], float) if boxes else None
+
     def before_render(self, camera: "Camera", ground: float | None = None) -> None:
         """Bring up to date what depends on the camera: the order of faces, silhouettes in the styles that draw them.
 
         `ground` is the height of the ground's lines, which translucent faces are blended below and above.
         """
         self._order_faces(camera, ground)
-        lit = (*self.painter.actors, *(entry.faces for entry in self._solids.values() if not entry.mesh.sheet))
-        self.surfaces.turn(lit, camera)
+        faces = [entry.faces for entry in self._solids.values() if not entry.mesh.sheet]
+        self.surfaces.shadows.update(self.surfaces.lights, faces, self._solid_bounds, camera)
+        self.surfaces.turn((*self.painter.actors, *faces), camera)
         if self.style in ("wireframe", "hidden-line"):
             for entry in self._solids.values():
                 entry.turn_silhouette(camera)
@@ -312,10 +321,10 @@ class Scene:
         self.painter.wear(np.concatenate([*of_face, np.zeros(0, np.float32)]), self.surfaces.frames)
 
     def _style_painter(self) -> None:
-        dressed = self.surfaces if self._looks else None
+        dressed = bool(self._looks)
         for actor in self.painter.actors:
-            dress_faces(actor, self.style, self.shading, self.look, self.opacity, dressed, pieces=True)
-            actor.SetForceTranslucent(dressed is not None and self.translucent)
+            dress_faces(actor, self.style, self.shading, self.look, self.opacity, self.surfaces, dressed, pieces=True)
+            actor.SetForceTranslucent(dressed and self.translucent)
 
     @property
     def _ground(self) -> Any:

@@ -11,12 +11,15 @@ surface (Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU"), whi
 mirrored coordinates too.
 """
 
+from collections.abc import Sequence
+
 from ...model.surface.light import MOST as MOST_LIGHTS
 from ...model.surface.mapping import CAP, KINDS, TIE
 from ...model.surface.material import SHADINGS
 
 TABLE = "surfaceTable"
 BITMAP = "surfaceBitmap"
+SHADOW = "surfaceShadowMap"
 POSITION, NUMBER = "surfacePosition", "surfaceNumber"
 MOST_BITMAPS = 12
 """Graphics cards let a shader read 16 textures at least."""
@@ -31,29 +34,56 @@ _SHADING = "\n".join(
     f"const int {shading.upper().replace('-', '_')} = {number};" for number, shading in enumerate(SHADINGS)
 )
 
-# VTK declares the uniforms that Surfaces.turn sets.
-LIGHTS = """
+
+def lights(casting: Sequence[int] = ()) -> str:
+    """How places receive light. VTK declares the uniforms that Surfaces.turn sets. The lights at the places `casting`
+    have a shadow map each: nine of its texels say how much of a place is lit, which stands a little before its face
+    then, so that no face shadows itself."""
+    maps = "".join(f"uniform sampler2D {SHADOW}{i};\n" for i in range(len(casting)))
+    lit = """float litBy(sampler2D map, vec4 at)
+{
+  vec3 place = 0.5 * at.xyz / at.w + 0.5;
+  ivec2 size = textureSize(map, 0);
+  if (size.x < 2 || any(lessThan(place, vec3(0.0))) || any(greaterThan(place, vec3(1.0)))) return 1.0;
+  ivec2 texel = ivec2(place.xy * vec2(size));
+  float sum = 0.0;
+  for (int y = -1; y <= 1; ++y)
+    for (int x = -1; x <= 1; ++x)
+      sum += texelFetch(map, clamp(texel + ivec2(x, y), ivec2(0), size - 1), 0).r < place.z - 1e-3 ? 0.0 : 1.0;
+  return sum / 9.0;
+}
+"""
+    shares = {
+        place: f"litBy({SHADOW}{i}, surfaceShadow{i} * vec4(world + surfaceOffset{i} * own, 1.0))"
+        for i, place in enumerate(casting)
+    }
+    calls = "".join(
+        f"  if (surfaceLights > {i}) lightUp(surfaceLight{i}, {shares.get(i, '1.0')} * surfaceGlow{i}, place, normal, "
+        f"toEye, shininess);\n"
+        for i in range(MOST_LIGHTS)
+    )
+    world = "  vec3 world = surfaceToWorld * place + surfaceEye, own = surfaceToWorld * normal;\n" if casting else ""
+    return f"""{maps}{lit if casting else ""}
 vec3 lightDiffuse, lightSpecular;
 void lightUp(vec4 light, vec3 glow, vec3 place, vec3 normal, vec3 toEye, float shininess)
-{
+{{
   vec3 s = normalize(light.w > 0.5 ? light.xyz - place : light.xyz);
   float facing = dot(s, normal);
   if (facing > 0.0)
-  {
+  {{
     lightDiffuse += glow * facing;
     lightSpecular += glow * pow(max(0.0, dot(normalize(s + toEye), normal)), shininess);
-  }
-}
-vec3 towardsEye(vec3 place) { return surfaceParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-place); }
+  }}
+}}
+vec3 towardsEye(vec3 place) {{ return surfaceParallel != 0 ? vec3(0.0, 0.0, 1.0) : normalize(-place); }}
 void receiveLight(vec3 place, vec3 normal, float shininess)
-{
+{{
   vec3 toEye = towardsEye(place);
   lightDiffuse = vec3(0.0);
   lightSpecular = vec3(0.0);
-""" + "".join(
-    f"  if (surfaceLights > {i}) lightUp(surfaceLight{i}, surfaceGlow{i}, place, normal, toEye, shininess);\n"
-    for i in range(MOST_LIGHTS)
-) + "}\n"  # fmt: skip
+{world}{calls}}}
+"""
+
 
 # At the vertices: the light on either side, diffuse and specular.
 VERTEX_DECLARATIONS = """

@@ -17,6 +17,7 @@ from ...model.surface.material import SHADINGS, Material
 from ..camera import frame
 from . import shader as glsl
 from .bitmaps import bitmap_texture, image_of, slopes_texture, texture_of
+from .shadows import Shadows, casting
 
 if TYPE_CHECKING:
     from vtkmodules.vtkRenderingCore import vtkActor, vtkTexture
@@ -35,6 +36,7 @@ class Surfaces:
         self.lights: tuple[Light, ...] = PROGRAM
         self.problems: tuple[str, ...] = ()
         """Why bitmaps are not shown, in words for users."""
+        self.shadows = Shadows()
         self._looks: dict[Appearance, int] = {}
         self._textures: dict[Key, vtkTexture] = {}
         self._slots: dict[Key, int] = {}
@@ -82,7 +84,7 @@ class Surfaces:
         """Light an actor's faces by the table; they have the vertex attributes POSITION and NUMBER, `pieces` of
         triangles those of whole triangles too."""
         _plain_material(actor)
-        declarations = glsl.LIGHTS + glsl.VERTEX_DECLARATIONS + glsl.DRESSED_VERTEX_DECLARATIONS
+        declarations = glsl.lights() + glsl.VERTEX_DECLARATIONS + glsl.DRESSED_VERTEX_DECLARATIONS
         vertex = glsl.DRESSED_VERTEX_PASSING + glsl.VERTEX_CLEAR
         if self._lights_corners:
             if pieces:
@@ -90,12 +92,47 @@ class Surfaces:
                 vertex += glsl.PIECE_LIGHTING % (("surfaceShininess",) * 3)
             else:
                 vertex += glsl.VERTEX_LIGHTING % "surfaceShininess"
-        fragment = glsl.LIGHTS + glsl.FRAGMENT_GOURAUD + glsl.dressed_declarations(len(self._slots))
+        fragment = glsl.lights(self.casting) + glsl.FRAGMENT_GOURAUD + glsl.dressed_declarations(len(self._slots))
         _replace(actor, declarations, vertex, fragment, glsl.FACE_NORMAL + glsl.DRESSED_LIGHTING)
         material = actor.GetProperty()
         material.SetTexture(glsl.TABLE, self._table)
         for key, slot in self._slots.items():
             material.SetTexture(f"{glsl.BITMAP}{slot}", self._textures[key])
+        self._bind_shadows(actor)
+
+    def shade(self, actor: vtkActor, shading: str, look: Look, pieces: bool = False) -> None:
+        """Light an actor's faces, which wear no material, by one of SHADINGS, else ValueError. `pieces` of triangles
+        have vertex attributes of the names CORNER_... for Gouraud's light."""
+        check_shading(shading)
+        _plain_material(actor)
+        declarations = vertex = fragment = ""
+        light = glsl.BY_FRAGMENT
+        if shading == "flat":
+            light = glsl.FACE_NORMAL + glsl.BY_FACE
+        elif shading != "phong":
+            declarations = glsl.lights() + glsl.VERTEX_DECLARATIONS + (glsl.PIECE_DECLARATIONS if pieces else "")
+            power = f"{look.specular_power:.6f}"
+            corner = glsl.PIECE_LIGHTING % ((power,) * 3) if pieces else glsl.VERTEX_LIGHTING % power
+            vertex = glsl.VERTEX_CLEAR + corner
+            fragment, light = glsl.FRAGMENT_GOURAUD, glsl.BY_VERTEX
+        numbers = {
+            "ambient": look.ambient,
+            "diffuse": look.diffuse,
+            "specular": 0.0 if shading == "gouraud-diffuse" else look.specular,
+            "shininess": look.specular_power,
+            "light": light,
+        }
+        _replace(actor, declarations, vertex, glsl.lights(self.casting) + fragment, glsl.PLAIN_LIGHTING % numbers)
+        self._bind_shadows(actor)
+
+    @property
+    def casting(self) -> tuple[int, ...]:
+        """See `shadows.casting`; shaders have to be made anew where it changes."""
+        return casting(self.lights)
+
+    def _bind_shadows(self, actor: vtkActor) -> None:
+        for number in range(len(self.casting)):
+            actor.GetProperty().SetTexture(f"{glsl.SHADOW}{number}", self.shadows.textures[number])
 
     def turn(self, actors: Iterable[vtkActor], camera: Camera) -> None:
         """Set the lights where they are for this camera."""
@@ -125,6 +162,11 @@ class Surfaces:
                 for number, (vector, glow) in enumerate(lights + unlit):
                     uniforms.SetUniform4f(f"surfaceLight{number}", vector)
                     uniforms.SetUniform3f(f"surfaceGlow{number}", glow)
+            fragment = shader.GetFragmentCustomUniforms()
+            for number in range(len(self.casting)):
+                matrix = self.shadows.matrices[number].T  # GLSL reads it by columns
+                fragment.SetUniformMatrix4x4(f"surfaceShadow{number}", matrix.reshape(-1).tolist())
+                fragment.SetUniformf(f"surfaceOffset{number}", self.shadows.offsets[number])
 
     def _choose_bitmaps(self) -> None:
         problems: list[str] = []
@@ -171,30 +213,6 @@ def check_shading(shading: str) -> None:
     """Raises ValueError for what is none of SHADINGS."""
     if shading not in SHADINGS:
         raise ValueError(f"no shading is called {shading!r}: take one of {', '.join(SHADINGS)}")
-
-
-def shade_plain(actor: vtkActor, shading: str, look: Look, pieces: bool = False) -> None:
-    """Light an actor's faces, which wear no material, by one of SHADINGS, else ValueError. `pieces` of triangles have
-    vertex attributes of the names CORNER_... for Gouraud's light."""
-    check_shading(shading)
-    _plain_material(actor)
-    declarations = vertex = fragment = ""
-    light = glsl.BY_FRAGMENT
-    if shading == "flat":
-        light = glsl.FACE_NORMAL + glsl.BY_FACE
-    elif shading != "phong":
-        declarations = glsl.LIGHTS + glsl.VERTEX_DECLARATIONS + (glsl.PIECE_DECLARATIONS if pieces else "")
-        power = f"{look.specular_power:.6f}"
-        vertex = glsl.VERTEX_CLEAR + (glsl.PIECE_LIGHTING % ((power,) * 3) if pieces else glsl.VERTEX_LIGHTING % power)
-        fragment, light = glsl.FRAGMENT_GOURAUD, glsl.BY_VERTEX
-    numbers = {
-        "ambient": look.ambient,
-        "diffuse": look.diffuse,
-        "specular": 0.0 if shading == "gouraud-diffuse" else look.specular,
-        "shininess": look.specular_power,
-        "light": light,
-    }
-    _replace(actor, declarations, vertex, glsl.LIGHTS + fragment, glsl.PLAIN_LIGHTING % numbers)
 
 
 def lets_light_through(material: Material | None) -> bool:
