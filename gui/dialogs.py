@@ -27,7 +27,9 @@ from PySide6.QtWidgets import (
 from ..model.document.errors import Refusal
 from ..model.document.expression import Expression, number
 
-READABLE = "*.solidtree *.stl *.3mf *.obj *.ply *.off *.glb *.gltf *.svg *.dxf"
+READABLE = (
+    "*.solidtree *.stl *.3mf *.obj *.ply *.off *.glb *.gltf *.svg *.dxf *.bmp *.png *.jpg *.jpeg *.tif *.tiff *.webp"
+)
 FORMATS = (
     ("3mf", "3MF: printing, with names and colours"),
     ("stl", "STL: printing, triangles alone"),

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QByteArray, QSettings
 
 RECENT = 10
-LAYOUT_VERSION = 4
+LAYOUT_VERSION = 5
 TOLERANCE = 0.05  # mm, where the user has chosen no other
 
 

@@ -46,6 +46,9 @@ from .parameters.parameters import Parameters
 from .partition.panel import BspPanel
 from .settings import LAYOUT_VERSION, Settings
 from .status import StatusBar, shown_solids
+from .surfaces.handles.light_tool import LightTool
+from .surfaces.handles.mapping_tool import MappingTool
+from .surfaces.panel import SurfacesPanel
 from .theme import Theme
 from .tools.engrave_tool import EngraveTool
 from .tools.handles import Handles
@@ -121,6 +124,10 @@ class MainWindow(QMainWindow):
         self.viewport.add_tool(self.comb)
         self.construction = ConstructionView(self.curve, self.viewport)
         self.viewport.add_tool(self.construction)
+        self.light_tool = LightTool(self.session, self.viewport, self)
+        self.viewport.add_tool(self.light_tool)
+        self.mapping_tool = MappingTool(self.session, self.viewport, self)
+        self.viewport.add_tool(self.mapping_tool)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()
@@ -168,13 +175,14 @@ class MainWindow(QMainWindow):
         self.model_panel = ModelPanel(self.session, self.tree, self)
         self.diagram = Diagram(self.session, self.actions_, self)
         self.figure_use = FigureUse(self.session, self)
-        self.properties = Properties(self.session, self.figure_use, self)
+        self.properties = Properties(self.session, self.figure_use, self.actions_["texture_placement"], self)
         self.parameters = Parameters(self.session, self)
         self.problems = Problems(self.session, self)
         self.measurements = Measurements(self.figure_use, self)
         self.sections = Sections(self.session, self.section_tool, self.actions_, self.section_tool.figures, self)
         self.script = ScriptLog(self.session, self)
         self.bsp = BspPanel(self)
+        self.surfaces = SurfacesPanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -194,6 +202,7 @@ class MainWindow(QMainWindow):
                 "Curve": self.curve_panel,
                 "Parameters": self.parameters,
                 "BSP": self.bsp,
+                "Surfaces": self.surfaces,
             },
             bottom={
                 "Problems": self.problems,
@@ -202,6 +211,7 @@ class MainWindow(QMainWindow):
                 "Measure": self.measurements,
             },
         )
+        self.docks["Surfaces"].hide()
 
     # What happens.
 
@@ -219,6 +229,7 @@ class MainWindow(QMainWindow):
             self.parameters,
             self.sections,
             self.script,
+            self.surfaces,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)

@@ -19,6 +19,7 @@ def connect(window: MainWindow) -> None:
     _measuring(window)
     _drawing(window)
     _editing(window)
+    _surfaces(window)
     window.parameters.sets.import_asked.connect(lambda: ask_import(window))
     window.parameters.sets.export_asked.connect(lambda: ask_export(window))
     window.files.path_changed.connect(window.follow_title)
@@ -55,6 +56,9 @@ def _words(window: MainWindow) -> None:
         window.place_on_face,
         window.bsp,
         window.curve,
+        window.surfaces,
+        window.light_tool,
+        window.mapping_tool,
     ):
         part.refused.connect(status.say)
     for said in (
@@ -141,3 +145,27 @@ def _drawing(window: MainWindow) -> None:
     draw.ended.connect(window.follow_empty)
     face.taken.connect(lambda: draw.start(face.resumed) if face.resumed else None)
     window.work_plane.changed.connect(window.actions_.refresh)
+
+
+def _surfaces(window: MainWindow) -> None:
+    """The Surfaces panel chooses whose handles are in the picture; those of nodes give way to a texture's."""
+    panel, light, mapping = window.surfaces, window.light_tool, window.mapping_tool
+    window.docks["Surfaces"].visibilityChanged.connect(panel.set_in_front)
+    panel.light_chosen.connect(light.choose)
+    panel.chosen.connect(lambda: None if window.session.previewing else window.actions_.refresh())
+    light.picked.connect(panel.choose_light)
+    for tool in (light, mapping):
+        tool.said.connect(window.status.set_hint)
+    mapping.began.connect(lambda: window.handles.set_hidden(True))
+    mapping.ended.connect(lambda: window.handles.set_hidden(False))
+    mapping.ended.connect(window.actions_.refresh)
+
+    def give_way() -> None:
+        mapping.end()
+        light.set_aside(True)
+        window.handles.set_hidden(True)  # the end of the placement has shown them
+
+    for other in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+        other.began.connect(give_way)
+        other.ended.connect(lambda: light.set_aside(False))
+    window.files.opened.connect(mapping.end)

@@ -15,7 +15,7 @@ class Hand:
     def __init__(self, driver) -> None:
         self.driver = driver
         self.viewport = driver.window.viewport
-        self.marks = next(m for m in self.viewport.viewer.overlay.marks if type(m).__name__ == "HandleMarks")
+        self.marks = driver.window.handles._picture._marks
 
     @property
     def names(self) -> set[str]:

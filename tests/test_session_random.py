@@ -25,7 +25,7 @@ from solidtree.model.solid.evaluate import Evaluator
 from solidtree.model.solid.outlines.profiles import profile_of
 
 WITH_KEYWORDS = ("set_fields", "set_section", "make_solid", "engrave", "add_material", "set_material", "set_mapping",
-                 "add_light", "set_light")  # fmt: skip
+                 "add_light", "set_light", "displace_each")  # fmt: skip
 DRAWN, SEEDS = 1500, 4  # of which a good third is refused: more than two thousand edits in all
 
 
@@ -43,6 +43,7 @@ def random_leaf(draw):
              lambda: script.stencil(script.lettering("A8"), number),
              lambda: script.loft(script.rectangle(), script.circle(number).at(0, 0, 9)),
              lambda: script.pipe(script.bezier([(0, 0), (9, 9), (20, 0)]), number),
+             lambda: script.relief(width=number), lambda: script.displace(box(number), height=number),
              lambda: script.instance(f"n{draw.randrange(40)}")]  # fmt: skip
     return draw.choice(kinds)()
 
@@ -150,6 +151,7 @@ def random_step(draw, document):
             draw.choice([0.5, number]),
             draw.choice([(1, -2), vector]),
         ),
+        lambda: ("displace_each", many(), draw.choice(["", "ab" * 32]), {"height": number}),
         lambda: ("swap", one(), one()),
         lambda: ("rename_each", many(), draw.choice(["part #", "", "same"])),
         lambda: ("reorder_parameter", name, draw.choice([0, 1, -1, 9])),

@@ -19,6 +19,7 @@ from solidtree.model.script import (
     circle,
     cone,
     cylinder,
+    displace,
     evaluate,
     extrude,
     halfspace,
@@ -26,8 +27,10 @@ from solidtree.model.script import (
     imported_mesh,
     instance,
     lettering,
+    light,
     linear_array,
     loft,
+    material,
     minkowski,
     mirror,
     open_document,
@@ -38,12 +41,14 @@ from solidtree.model.script import (
     polygon,
     polyhedron,
     rectangle,
+    relief,
     revolve,
     save,
     sphere,
     stencil,
     sweep,
     text_on_path,
+    texture,
     torus,
     union,
     wrap,
@@ -160,12 +165,41 @@ def format_4() -> Document:
     )
 
 
+HEIGHTS = b"BM\x4e\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\3\0\0\0\1\0\x18\0" + bytes(24)
+HEIGHTS += bytes((0, 0, 0, 90, 90, 90, 0, 0, 20, 20, 20, 255, 255, 255, 0, 0, 60, 0, 0, 0, 200, 0, 0, 0))
+"""A bitmap of 2 by 3 pixels, 24 bits."""
+
+
+def format_5() -> Document:
+    """Format 4, with materials, how bitmaps lie, lights, shading, and solids of bitmaps."""
+    before = format_4()
+    heights = default_store().put(HEIGHTS)
+    skin = material("skin", "Brass", colour="#336699", shading="flat", opacity=0.5, texture=heights, key="white",
+                    wrap="mirror", bump=heights, bump_height=0.25, reflection=heights, light_map=heights)  # fmt: skip
+    lies = texture(projection="spherical", origin=(1, 2, 3), turned=(0, 90, 0), size=(5, 6), offset=(0.5, 0),
+                   scale=(2, 3), turn=30, mirror=(True, False))  # fmt: skip
+    plate = relief(asset=heights, width=9, height="depth", base=1, invert=True, smoothing=0.5, samples=3)
+    bumpy = displace(sphere(4), asset=heights, height=-0.5, projection="spherical", edge=2)
+    made = (plate.named("plate").dressed(skin.name), bumpy.named("bumpy").dressed(lies))
+    return before.with_(
+        solids=(*before.solids, *(_children_numbered(node.with_(id=f"h{i}")) for i, node in enumerate(made))),
+        materials=(skin, material("plain", bump=heights, bump_kind="normals")),
+        lights=(
+            light("sun", direction=(1, 2, -3), colour="#ffeecc", intensity=0.5, shadows=True),
+            light("lamp", "point", position=(1, 2, 3), with_camera=True, active=False),
+            light("around", "ambient"),
+        ),
+        shading="gouraud-diffuse",
+        notes="Every kind of node, as format 5 writes it.",
+    )
+
+
 def _children_numbered(root: Node) -> Node:
     return root.with_(children=tuple(child.with_(id=f"{root.id}_{i}") for i, child in enumerate(root.children)))
 
 
 @pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2), ("format_3", format_3),
-                                            ("format_4", format_4)])  # fmt: skip
+                                            ("format_4", format_4), ("format_5", format_5)])  # fmt: skip
 def test_every_format_opens_as_it_was_made(name, made):
     assert same_document(open_document(PROJECTS / f"{name}.solidtree"), made())
 

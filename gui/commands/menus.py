@@ -13,6 +13,7 @@ from ... import resources
 from ...model.editing.commands import Command
 from ..icons import icon
 from .arrange import ARRANGE_SEPARATORS
+from .surfaces import SURFACE_SEPARATORS
 
 if TYPE_CHECKING:
     from ..window import MainWindow
@@ -22,10 +23,10 @@ ORDER = {
     "File": "new open recent examples - save save_as - import export export_drawing export_diagram - quit",
     "Edit": "undo redo - cut copy paste copy_script duplicate delete - rename dissolve link unlink Edit/Order - "
     "toggle_visible show_hidden - select_all invert Edit/Select find - Edit/Parameters - evaluate cancel",
-    "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace - add_extrude add_revolve - "
+    "Add": "add_box add_sphere add_cylinder add_cone add_torus add_halfspace add_relief - add_extrude add_revolve - "
     "add_rectangle add_circle add_polygon add_lettering",
     "Combine": "union difference intersection hull minkowski - group Combine/Change_to - "
-    "linear_array polar_array mirror",
+    "linear_array polar_array mirror displace",
     "Curve": "draw_pen draw_freehand draw_rectangle draw_ellipse draw_polygon draw_star draw_arc draw_control_points "
     "draw_through_points - Curve/Work_plane look_at_plane - extrude revolve sweep loft pipe wrap - "
     "text_on_path stencil - engrave emboss - "
@@ -36,10 +37,10 @@ ORDER = {
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections - tool_menu",
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
-    "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel panels",
+    "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel panels",
     "Help": "palette cheat_sheet shortcuts - about",
 }
 """What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.
@@ -77,8 +78,9 @@ def fill_menus(window: MainWindow) -> None:
                 menus[title].addSeparator()
             else:
                 menus[title].addAction(entries.get(name) or window.actions_[name])  # moves it to the end
-    for name in ARRANGE_SEPARATORS:
-        menus["Tools/Arrange"].insertSeparator(window.actions_[name])
+    for place, names in (("Tools/Arrange", ARRANGE_SEPARATORS), ("Tools/Surfaces", SURFACE_SEPARATORS)):
+        for name in names:
+            menus[place].insertSeparator(window.actions_[name])
 
 
 def _fill_recent(window: MainWindow, menu: QMenu) -> None:

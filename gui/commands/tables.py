@@ -19,8 +19,10 @@ from .measure import MEASURE_COMMANDS
 from .nodes import NODE_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
+from .relief import RELIEF_COMMANDS
 from .sections import SECTION_COMMANDS
 from .sight import SIGHT_COMMANDS
+from .surfaces import SURFACE_COMMANDS
 from .views import FILE_COMMANDS, VIEW_COMMANDS
 
 if TYPE_CHECKING:
@@ -36,6 +38,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (PARAMETER_COMMANDS, window),
         (DOCUMENT_COMMANDS, window.session),
         (TREE_COMMANDS, window.session),
+        (RELIEF_COMMANDS, window),
         (CURVE_COMMANDS, window),
         (NODE_COMMANDS, window),
         (FONT_COMMANDS, window),
@@ -50,5 +53,6 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (SIGHT_COMMANDS, window),
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
+        (SURFACE_COMMANDS, window),
     ):
         actions.add(table, context)

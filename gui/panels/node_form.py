@@ -5,19 +5,22 @@ from __future__ import annotations
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt
-from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QMenu, QPlainTextEdit, QToolButton
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QMenu, QPlainTextEdit, QToolButton, QWidget
 
 from ...model.document.fields import FieldSpec
 from ...model.document.nodes import Node, field_specs
 from ...model.document.outlines import OUTLINES, Lettering
 from ...model.document.placement import Affine, Move, Reflect, Scale, Step, Turn
 from ...model.document.tree import find, walk
+from ...model.editing.session import Session
 from ..icons import icon, kind_icon
+from ..surfaces.look_rows import MaterialRow, TextureForm
 from .colour_field import ColourField
 from .form import Form
 from .number_field import LENGTH, STEPS, Steps
 from .outline_words import field_words, measured_words
-from .property_edit import field_edit, position_edit, step_edit, with_step
+from .property_edit import Edit, field_edit, position_edit, step_edit, with_step
 from .text_line import TextLine
 from .words.lettering_rows import ROWS, slant_slider
 from .words.text_rows import text_row
@@ -39,6 +42,11 @@ def extra_steps(node: Node) -> tuple[Step, ...]:
 
 
 class NodeForm(Form):
+    def __init__(self, session: Session, placement: QAction | None = None, parent: QWidget | None = None) -> None:
+        """`placement` is the command that shows how a texture lies."""
+        super().__init__(session, parent)
+        self._texture_placement = placement
+
     def build(self, node: Node) -> None:
         """Name, fields, placement, look and note of one node."""
         self._name(node)
@@ -59,17 +67,20 @@ class NodeForm(Form):
         if isinstance(node, OUTLINES):
             self._measures()
         self._placement(node)
-        self.build_look([node.id])
+        self.build_look([node.id], not isinstance(node, OUTLINES))
         self._note(node.id)
+        if not isinstance(node, OUTLINES):
+            TextureForm(self, node.id, self._texture_placement)
 
-    def build_look(self, ids: list[str]) -> None:
-        """Visibility and colour, which all kinds of nodes have."""
+    def build_look(self, ids: list[str], surfaces: bool = True) -> None:
+        """Visibility and colour, which all kinds of nodes have, and the material of those with `surfaces`."""
         self.heading("Look")
         box = QCheckBox(self)
         box.setObjectName("visible")
         box.setAccessibleName("Visible")
         box.clicked.connect(lambda on: self.do("set_visible", "Show" if on else "Hide", ids, bool(on)))
-        colour = ColourField(self.session, ids, self)
+        edit = Edit(self.session, "set_colour", "Change colour", lambda document, colour: (ids, colour))
+        colour = ColourField(edit, "as the solid", "empty: that of what it stands in", self)
         wanted = set(ids)
 
         def refresh(node: Node, values: dict[str, float]) -> None:
@@ -84,6 +95,8 @@ class NodeForm(Form):
         self.rows.append(refresh)
         self.line("Visible", box, "Shown, or hidden and still part of what it stands in")
         self.line("Colour", colour, "It stays on its faces in every result")
+        if surfaces:
+            MaterialRow(self, ids)
 
     def _name(self, node: Node) -> None:
         name = TextLine(parent=self)

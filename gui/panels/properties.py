@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QWidget
 
 from ...model.document.document import parameter_values
@@ -22,7 +23,10 @@ class Properties(QScrollArea):
 
     refused = Signal(str)
 
-    def __init__(self, session: Session, use: FigureUse, parent: QWidget | None = None) -> None:
+    def __init__(
+        self, session: Session, use: FigureUse, placement: QAction | None = None, parent: QWidget | None = None
+    ) -> None:
+        """`placement` is the command that shows how a texture lies."""
         super().__init__(parent)
         self.setObjectName("properties")
         self.setWidgetResizable(True)
@@ -31,6 +35,7 @@ class Properties(QScrollArea):
         self._session = session
         self._form: NodeForm | None = None
         self._use = use
+        self._placement = placement
         self._views: dict[str, MeasuresView] = {}
         self._measured: Measured = {}
         self._shape: Any = None
@@ -78,7 +83,7 @@ class Properties(QScrollArea):
         old = self.takeWidget()
         if isinstance(old, NodeForm):
             old.retire()
-        form = NodeForm(self._session, self)
+        form = NodeForm(self._session, self._placement, self)
         form.refused.connect(self.refused)
         selection = self._session.selection
         if not self._shape:

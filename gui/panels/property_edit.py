@@ -17,7 +17,10 @@ from ...model.operations.operations import OPERATIONS
 
 
 class Edit:
-    """One operation with all arguments but the last: `preview` and `commit` give back why not, or None."""
+    """One operation with all arguments but the last: `preview` and `commit` give back why not, or None.
+
+    `keywords` gives arguments by name.
+    """
 
     def __init__(
         self,
@@ -26,18 +29,21 @@ class Edit:
         label: str,
         arguments: Callable[[Document, Any], tuple[Any, ...]],
         check: Callable[[Document, tuple[Any, ...]], None] = lambda document, arguments: None,
+        keywords: Callable[[Document, Any], dict[str, Any]] = lambda document, value: {},
     ) -> None:
         self._session = session
         self._operation = operation
         self._label = label
         self._arguments = arguments
         self._check = check
+        self._keywords = keywords
 
     def preview(self, value: Any) -> str | None:
         try:
             arguments = self._arguments(self._session.document, value)
             self._check(self._session.document, arguments)
-            self._session.preview(OPERATIONS[self._operation](self._session.document, *arguments))
+            keywords = self._keywords(self._session.document, value)
+            self._session.preview(OPERATIONS[self._operation](self._session.document, *arguments, **keywords))
         except Refusal as refusal:
             return sentence(refusal)
         return None
@@ -46,7 +52,8 @@ class Edit:
         try:
             arguments = self._arguments(self._session.document, value)
             self._check(self._session.document, arguments)
-            self._session.do(self._operation, *arguments, label=self._label)
+            keywords = self._keywords(self._session.document, value)
+            self._session.do(self._operation, *arguments, label=self._label, **keywords)
         except Refusal as refusal:
             self._session.cancel()
             return sentence(refusal)

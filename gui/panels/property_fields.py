@@ -102,7 +102,7 @@ class NumberRow(QWidget):
         self.fault.setWordWrap(True)
         self.fault.setContentsMargins(LABEL_WIDTH + 8, 0, 0, 2)
         self.fault.hide()
-        line = QHBoxLayout()
+        self.line = line = QHBoxLayout()
         line.setContentsMargins(0, 0, 0, 0)
         line.setSpacing(8)
         for widget in (self.label, self.field, self.unit):

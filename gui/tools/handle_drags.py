@@ -201,17 +201,10 @@ class TurnDrag(Drag):
         self._last = 0.0
 
     def begin(self, x: float, y: float) -> None:
-        from ...render.handles.drag import GRAZING, on_plane, view_direction
+        from ...render.handles.drag import grabbed_on_ring
 
         origin, axis = self._frame.origin, self._frame.axes[self.axis]
-        towards = view_direction(self.viewer.camera, origin)
-        if abs(float(axis @ towards)) >= GRAZING:
-            self._grabbed = on_plane(*self._ray(x, y), origin, axis)
-        else:  # seen from its edge: the side of the ring that is nearest to the eye
-            self._grabbed = on_plane(*self._ray(x, y), origin, towards)
-            if self._grabbed is not None:
-                arm = towards - axis * float(axis @ towards)
-                self._grabbed = origin + arm * max(float(np.linalg.norm(self._grabbed - origin)), 1e-6)
+        self._grabbed = grabbed_on_ring(self.viewer.camera, *self._ray(x, y), origin, axis)
 
     def follow(self, pointer: Pointer) -> None:
         from ...render.handles.drag import ring_angle, stepped_angle, unwrapped

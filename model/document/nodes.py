@@ -286,6 +286,28 @@ class Minkowski(Node):
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Displace(Node):
+    """The operand with its faces raised along their normals by the lightness of a bitmap that the document carries.
+
+    The bitmap lies on it as a texture of this projection, about the origin of the operand's surroundings, again and
+    again, `copy_width` by `copy_height` mm each.
+    """
+
+    title: ClassVar[str] = "Displace"
+    operands: ClassVar[tuple[int, int | None]] = (1, 1)
+    asset: str = fields.text("", "Asset", "SHA-256 of the bitmap")
+    height: Number = fields.length(1.0, "Height", "From black to white; below 0 the faces sink in")
+    projection: str = fields.choice("Projection", ("box", "planar", "cylindrical", "spherical"))
+    copy_width: Number = fields.size(20.0, "Copy width", "Of one copy of the bitmap; around an axis it goes once")
+    copy_height: Number = fields.size(20.0, "Copy height", "Of one copy of the bitmap")
+    edge: Number = fields.size(0.5, "Edge", "Longest edge of the triangles that are moved")
+
+
+SURFACES = (Hull, Minkowski, Displace)
+"""Operations whose result has a surface of its own, not that of its operands."""
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
 class LinearArray(Node):
     """Copies of the operand, each one step further."""
 

@@ -92,3 +92,22 @@ class ImportedMesh(Node):
     file_format: str = fields.text("stl", "Format")
     part: Number = fields.count(0, "Part", "Which solid of the file, from 0", minimum=0)
     unit: Number = fields.factor(1.0, "Unit", "Millimetres in one unit of the file", minimum=0.0, above=True)
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False, kw_only=True)
+class Relief(Node):
+    """A plate whose top rises with the lightness of a bitmap that the document carries.
+
+    It stands on z = 0 with its lowest corner at the origin. Samples are the means of the pixels around the middles of
+    the grid's cells; between them the top is flat in triangles, and the border is as high as the samples next to it.
+    """
+
+    title: ClassVar[str] = "Relief"
+    asset: str = fields.text("", "Asset", "SHA-256 of the bitmap")
+    width: Number = fields.size(100.0, "Width", "Along x; the other side is in proportion to the bitmap")
+    height: Number = fields.size(5.0, "Height", "From black to white")
+    base: Number = fields.size(2.0, "Base", "Of the plate below black")
+    invert: bool = fields.flag(False, "Invert", "Dark is high")
+    smoothing: Number = fields.factor(0.0, "Smoothing", "Standard deviation in samples; 0 leaves the bitmap as it is",
+                                      minimum=0.0)  # fmt: skip
+    samples: Number = fields.count(400, "Samples", "Along the longer side, at most", minimum=1)

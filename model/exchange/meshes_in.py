@@ -15,6 +15,8 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.primitives import ImportedMesh
 from ..document.tree import unique_name
+from ..image.pictures import FORMATS as PICTURES
+from ..image.pictures import is_bitmap
 from ..project.assets import AssetStore, default_store
 from ..project.disk import one_line, read_whole, reason_of
 from ..project.project_file import open_project
@@ -131,7 +133,7 @@ def _is_project(path: str | os.PathLike[str]) -> bool:
 def import_file(path: str | os.PathLike[str], store: AssetStore | None = None) -> Document:
     """A document that holds each solid of a mesh file as an imported mesh, or each shape of a drawing as an outline.
 
-    The mesh file itself is kept; of a drawing the curves. Raises Refusal.
+    The mesh file itself is kept; of a drawing the curves. A bitmap becomes a relief. Raises Refusal.
     """
     path = Path(path)
     store = store or default_store()
@@ -141,7 +143,9 @@ def import_file(path: str | os.PathLike[str], store: AssetStore | None = None) -
         drawing_format = drawings_in.format_of(data, path.suffix)
         if drawing_format is not None:
             return _drawing(data, drawing_format, path.stem)
-        known = ", ".join((PROJECT, *(f".{ending}" for ending in (*FORMATS, *DRAWINGS))))
+        if is_bitmap(data):
+            return _relief(path, data, store)
+        known = ", ".join((PROJECT, *(f".{ending}" for ending in (*FORMATS, *DRAWINGS)), *PICTURES))
         raise Refusal(f"is of no kind that can be opened; known are {known}" if data else "is empty")
     parts = _read(data, file_format, _beside(path))
     sha = store.put(data)
@@ -163,6 +167,14 @@ def import_file(path: str | os.PathLike[str], store: AssetStore | None = None) -
             for i, (name, part) in enumerate(zip(taken, parts, strict=True), 1)
         )
     )
+
+
+def _relief(path: Path, data: bytes, store: AssetStore) -> Document:
+    from ..document.primitives import Relief
+    from ..image.pictures import read_bitmap
+
+    read_bitmap(path)
+    return Document(solids=(Relief(id="n1", name=path.stem, asset=store.put(data)),))
 
 
 _CACHE_BYTES = 256_000_000

@@ -19,8 +19,18 @@ if TYPE_CHECKING:
 FORMATS = {".bmp": "BMP", ".dib": "BMP", ".png": "PNG", ".jpg": "JPEG", ".jpeg": "JPEG", ".tif": "TIFF",
            ".tiff": "TIFF", ".webp": "WEBP"}  # fmt: skip
 _READ = ("PNG", "JPEG", "TIFF", "WEBP")
+_DEEP = ("I;16", "I;16B", "I")
 _MOST_BYTES = 2**30
 logging.getLogger("PIL").addHandler(logging.NullHandler())  # what it logs is refused here in our words
+
+
+def is_bitmap(data: bytes) -> bool:
+    """Whether these are the first bytes of a kind of file that `read_bitmap` reads."""
+    return (
+        (data[:2] in (b"BM", b"BA") and len(data) > 26)
+        or data.startswith((b"\x89PNG\r\n", b"\xff\xd8\xff", b"II*\0", b"MM\0*"))
+        or (data[:4] == b"RIFF" and data[8:12] == b"WEBP")
+    )
 
 
 def read_bitmap(path: str | Path) -> Bitmap:
@@ -43,6 +53,18 @@ def read_bitmap(path: str | Path) -> Bitmap:
             rgb = np.asarray(picture)
             return of_samples(rgb[..., ::-1], 24, type=kind, compression=_method(picture), colour_key=key)
         return of_rgba(_rgba(picture), type=kind, compression=_method(picture))
+
+
+def lightness(path: str | Path) -> np.ndarray:
+    """(height, width) 0 to 1, as deep as the file has it, rows from the top down: grey, or the weighed mean of the
+    colours (ITU-R BT.709), times alpha. Raises Refusal."""
+    data = file_bytes(path)
+    if data[:2] not in (b"BM", b"BA"):
+        with _opened(data, _READ) as picture:
+            if picture.mode in _DEEP:
+                return np.clip(np.asarray(picture, np.float64) / 65535.0, 0.0, 1.0)
+    rgba = read_bitmap(path).to_rgba()
+    return (rgba[..., :3] @ np.array([0.2126, 0.7152, 0.0722])) * (rgba[..., 3] / 65025.0)
 
 
 def file_bytes(path: str | Path) -> bytes:
@@ -132,7 +154,7 @@ def _method(picture: Image.Image) -> str:
 
 
 def _rgba(picture: Image.Image) -> Bytes:
-    if picture.mode in ("I;16", "I;16B", "I"):  # 16-bit grey, which Pillow would clip instead of scaling
+    if picture.mode in _DEEP:  # 16-bit grey, which Pillow would clip instead of scaling
         grey = np.clip(np.rint(np.asarray(picture, np.float64) / 257.0), 0, 255).astype(np.uint8)
         return np.stack([grey, grey, grey, np.full_like(grey, 255)], axis=2)
     if picture.mode == "F":

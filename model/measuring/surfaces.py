@@ -10,9 +10,9 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from ..document.nodes import Hull, LinearArray, Minkowski, Mirror, Node, PolarArray
+from ..document.nodes import SURFACES, LinearArray, Mirror, Node, PolarArray
 from ..document.placement import IDENTITY, inverse, product
-from ..document.primitives import ImportedMesh
+from ..document.primitives import ImportedMesh, Relief
 from ..solid.copies import copies
 from ..solid.display import DisplayMesh
 from ..solid.failure import NoSolid
@@ -53,7 +53,7 @@ def surface_at(root: Node, mesh: DisplayMesh, triangle: int) -> Surface:
     own = inverse(matrix)
     local = corners @ own[:, :3].T + own[:, 3]
     along = unit(matrix[:, :3].T @ outward)
-    if isinstance(leaf, ImportedMesh | Hull | Minkowski):
+    if isinstance(leaf, (ImportedMesh, Relief, *SURFACES)):
         return fitted_surface(mesh, triangle) or Plane(three(corners.mean(axis=0)), three(normal))
     shape = shape_of(leaf, local, along)
     placed = None if shape is None else _placed(shape, matrix, corners, normal)

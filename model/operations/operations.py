@@ -15,7 +15,7 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Instance, field_specs
 from ..document.outlines import Outlines
-from ..document.tree import change, change_each, find, listed
+from ..document.tree import change, change_each, find, listed, outermost, parent
 from .arranging import shift
 from .curves.bending import bend_segment
 from .curves.contours import (
@@ -138,6 +138,16 @@ def _with_fields(
     return change(declaring(document, list(checked.values())), node_id, lambda node: new)
 
 
+def displace_each(document: Document, ids: Sequence[str], asset: str, **values: Any) -> Document:
+    """Raise the faces of each of these solids by a bitmap, the SHA-256 of an asset; further fields as of Displace."""
+    for node_id in outermost(document, ids):
+        document = combine(document, "displace", [node_id])
+        above = parent(document, node_id)
+        assert above is not None
+        document = _with_fields(document, above.id, {"asset": asset, **values})
+    return document
+
+
 def set_colour(document: Document, ids: Sequence[str], colour: str | None) -> Document:
     """Colour nodes; None takes the colour away."""
     plain = None if colour is None else hex_colour(colour)
@@ -159,7 +169,8 @@ def set_note(document: Document, node_id: str, note: str) -> Document:
 OPERATIONS: dict[str, Callable[..., Document]] = {
     function.__name__: function
     for function in (
-        insert, insert_document, paste, replace, delete, combine, make_solid, make_stencils, set_text_on_path,
+        insert, insert_document, paste, replace, delete, combine, displace_each, make_solid, make_stencils,
+        set_text_on_path,
         dissolve, change_kind, relocate, copy_to, duplicate, reorder, promote, swap, link, unlink, rename, rename_each,
         set_field, set_fields, place, move, turn,
         scale, shift, set_colour, set_visible, set_note,

@@ -10,13 +10,12 @@ from ..document.from_outlines import Extrude, Revolve, Sweep
 from ..document.kind_names import function_name
 from ..document.nodes import (
     KINDS,
+    SURFACES,
     Broken,
     Difference,
-    Hull,
     Instance,
     Intersection,
     LinearArray,
-    Minkowski,
     Mirror,
     Node,
     PolarArray,
@@ -59,9 +58,9 @@ from .parameters import declaring
 from .surfaces import with_materials_of
 
 OF_SOLIDS: tuple[type[Node], ...] = (
-    Union, Difference, Intersection, Hull, Minkowski, LinearArray, PolarArray, Mirror,
+    Union, Difference, Intersection, *SURFACES, LinearArray, PolarArray, Mirror,
 )  # fmt: skip
-"""The operations that take solids; all but the hull and the Minkowski sum take outlines instead, too."""
+"""The operations that take solids; all but those of SURFACES take outlines instead, too."""
 
 
 def insert(document: Document, node: Node, parent_id: str | None = None, index: int | None = None) -> Document:
@@ -129,7 +128,7 @@ def combine(document: Document, kind: str, ids: Sequence[str], name: str = "") -
     ways = trails(document, ids)
     flat = Outlines(document.definitions)
     flats = sum(way[-1] in flat for way in ways.values())
-    if flats and wanted in (Hull, Minkowski):
+    if flats and wanted in SURFACES:
         raise Refusal(f"an outline is flat; a {wanted.title.lower()} takes solids")
     if 0 < flats < len(ways):
         raise Refusal("outlines are flat, and some of these are solids: extrude the outlines first")
@@ -220,7 +219,7 @@ def _changed_kind(document: Document, node_id: str, wanted: type[Node]) -> Docum
     joining = isinstance(node, OF_SOLIDS) and wanted in OF_SOLIDS
     if not joining and not (isinstance(node, Extrude | Revolve) and wanted in (Extrude, Revolve)):
         raise Refusal(f"“{node.label}” cannot become a {wanted.title.lower()}")
-    if joining and wanted in (Hull, Minkowski) and node in Outlines(document.definitions):
+    if joining and wanted in SURFACES and node in Outlines(document.definitions):
         raise Refusal(f"“{node.label}” joins outlines, which are flat; a {wanted.title.lower()} takes solids")
     fewest, most = wanted.operands
     if len(node.children) < fewest:

@@ -15,12 +15,13 @@ from pathlib import Path
 
 from ..document.document import Document
 from ..document.errors import Refusal
+from ..document.nodes import Displace
 from ..document.outlines import Lettering
-from ..document.primitives import ImportedMesh
+from ..document.primitives import ImportedMesh, Relief
 from ..document.tree import walk
 from .disk import reason_of
 
-CARRIERS = (ImportedMesh, Lettering)
+CARRIERS = (ImportedMesh, Relief, Displace, Lettering)
 """The kinds of nodes that refer to an asset."""
 _SHA = re.compile(r"[0-9a-f]{64}")
 

@@ -5,12 +5,14 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ..document import placement
 from ..document.nodes import (
     Difference,
+    Displace,
     Hull,
     Instance,
     Intersection,
@@ -76,6 +78,30 @@ def minkowski(first: Node | Iterable[Node] = (), *others: Node | Iterable[Node])
     64.0
     """
     return Minkowski(children=solids_of((first, *others)))
+
+
+def displace(
+    solid: Node | Iterable[Node] = (),
+    bitmap: str | os.PathLike[str] = "",
+    height: Value = 1,
+    *,
+    asset: str = "",
+    projection: str = "box",
+    copy_width: Value = 20,
+    copy_height: Value = 20,
+    edge: Value = 0.5,
+) -> Displace:
+    """A solid with its faces raised along their normals by the lightness of a bitmap file, `height` mm for white.
+
+    The bitmap lies on it as a texture, by a `projection` (box, planar, cylindrical or spherical) about the origin, one
+    copy `copy_width` by `copy_height` mm. `edge` is the longest edge of the triangles that are moved.
+    """
+    if bitmap and not asset:
+        from .surfaces import kept
+
+        asset = kept(bitmap)
+    return Displace(children=solids_of((solid,)), asset=asset, height=height, projection=projection,
+                    copy_width=copy_width, copy_height=copy_height, edge=edge)  # fmt: skip
 
 
 def linear_array(solid: Node, count: Value = 3, step: Sequence[Value] = (20, 0, 0)) -> LinearArray:
@@ -150,6 +176,7 @@ def transformed(matrix: Iterable[Iterable[Value]]) -> Affine:
 __all__ = [
     "at",
     "difference",
+    "displace",
     "hull",
     "instance",
     "intersection",

@@ -16,7 +16,7 @@ from ..document.nodes import (
     Node,
     Union,
 )
-from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Polyhedron, Sphere, Torus
+from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, Polyhedron, Relief, Sphere, Torus
 
 Value = Number | str | int
 """A number, an expression, or an expression's text."""
@@ -134,6 +134,29 @@ def imported_mesh(asset: str = "", file_format: str = "stl", part: int = 0, unit
     return ImportedMesh(asset=asset, file_format=file_format, part=part, unit=unit)
 
 
+def relief(
+    bitmap: str | os.PathLike[str] = "",
+    width: Value = 100,
+    height: Value = 5,
+    base: Value = 2,
+    *,
+    asset: str = "",
+    invert: bool = False,
+    smoothing: Value = 0,
+    samples: Value = 400,
+) -> Relief:
+    """A plate whose top rises with the lightness of a bitmap file: `height` mm from black to white above the `base`.
+
+    `samples` are those along the longer side at most; `smoothing` is a standard deviation in samples.
+    """
+    if bitmap and not asset:
+        from .surfaces import kept
+
+        asset = kept(bitmap)
+    return Relief(asset=asset, width=width, height=height, base=base, invert=invert, smoothing=smoothing,
+                  samples=samples)  # fmt: skip
+
+
 def mesh(path: str | os.PathLike[str]) -> Node:
     """The solids of a mesh file (STL, 3MF, OBJ, PLY, OFF, GLB); several become one union."""
     from ..exchange.meshes_in import read_any
@@ -151,6 +174,7 @@ __all__ = [
     "mesh",
     "parameter",
     "polyhedron",
+    "relief",
     "sphere",
     "torus",
 ]

@@ -30,7 +30,7 @@ def material(name: str, preset: str | None = None, **values: Any) -> Material:
     for field in BITMAPS:
         value = values.get(field)
         if value and not (isinstance(value, str) and len(value) == _SHA_LENGTH and "." not in value):
-            values[field] = _kept(value)
+            values[field] = kept(value)
     return Material(name, **{**PRESETS.get(preset or "", {}), **values})
 
 
@@ -62,7 +62,8 @@ def light(name: str = "Light", kind: str = "directional", **values: Any) -> Ligh
     return Light(name, kind, **values)
 
 
-def _kept(path: str | os.PathLike[str]) -> str:
+def kept(path: str | os.PathLike[str]) -> str:
+    """The SHA-256 of a bitmap file, now an asset. Raises Refusal that names the file."""
     from ..surface.bitmaps import keep_bitmap
 
     try:

@@ -12,7 +12,7 @@ from manifold3d import CrossSection, Error, Manifold, Mesh64, triangulate
 from numpy.typing import NDArray
 
 from ..document.nodes import Node
-from ..document.primitives import Box, Cone, Cylinder, ImportedMesh, Polyhedron, Sphere, Torus
+from ..document.primitives import Box, Cone, Cylinder, ImportedMesh, Polyhedron, Relief, Sphere, Torus
 from .failure import NoSolid, words
 from .tessellation import MAX_SEGMENTS, MAX_SURFACE_SEGMENTS, circle_segments, sphere_segments
 
@@ -167,6 +167,13 @@ def _openness(points: NDArray[np.float64], triangles: NDArray[np.int64]) -> str:
     if many:
         return f"{many} edge{' has' if many == 1 else 's have'} more than two faces"
     return f"neighbouring faces point to opposite sides ({len(pairs)} edges)"
+
+
+@solid_of.register
+def _(node: Relief, tolerance: float) -> Manifold:
+    from .relief import solid_of_relief
+
+    return solid_of_relief(node)
 
 
 @solid_of.register

@@ -10,6 +10,7 @@ from manifold3d import Error, Manifold, OpType
 
 from ..document.nodes import (
     Difference,
+    Displace,
     Hull,
     Instance,
     Intersection,
@@ -130,7 +131,7 @@ def intersection(evaluator: Evaluator, wanted: Wanted) -> Steps:
 
 
 def around(evaluator: Evaluator, wanted: Wanted) -> Steps:
-    """Hull and Minkowski sum: new surfaces, so the result is an original of its own."""
+    """Those of SURFACES: new surfaces, so the result is an original of its own."""
     problems: list[Problem] = []
     operands: list[Operand] = []
     node = wanted.node
@@ -147,6 +148,10 @@ def around(evaluator: Evaluator, wanted: Wanted) -> Steps:
         return _done(wanted, Manifold(), problems, NOTHING)
     if isinstance(node, Hull):
         solid = Manifold.batch_hull([operand.solid for operand in operands])
+    elif isinstance(node, Displace):
+        from .relief import displaced
+
+        solid = displaced(node, operands[0].solid)
     else:
         solid = operands[0].solid
         for operand in operands[1:]:
@@ -161,4 +166,5 @@ OPERATIONS: dict[type[Node], Callable[[Evaluator, Wanted], Steps]] = {
     Intersection: intersection,
     Hull: around,
     Minkowski: around,
+    Displace: around,
 }

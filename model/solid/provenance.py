@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..document.from_outlines import FROM_OUTLINES
-from ..document.nodes import Hull, LinearArray, Minkowski, Mirror, Node, PolarArray
+from ..document.nodes import SURFACES, LinearArray, Mirror, Node, PolarArray
 from ..document.placement import IDENTITY, product
 from .copies import copies
 from .failure import NoSolid
@@ -46,7 +46,7 @@ class Occurrence:
 
 def begins_faces(node: Node) -> bool:
     """Whether faces of a result are told to be this node's: a leaf, or what makes a surface of its own."""
-    return not node.children or isinstance(node, (*FROM_OUTLINES, Hull, Minkowski))
+    return not node.children or isinstance(node, (*FROM_OUTLINES, *SURFACES))
 
 
 def occurrences(root: Node) -> tuple[Occurrence, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import StrEnum
 
-from ..document.nodes import Difference, Hull, Intersection, Minkowski, Node
+from ..document.nodes import SURFACES, Difference, Intersection, Node
 from .provenance import Path
 
 
@@ -37,7 +37,7 @@ def roles_along(roots: Sequence[Node], path: Path) -> tuple[Role, ...]:
         if place is None:
             break
         if role is not Role.ENCLOSED:
-            if isinstance(node, Hull | Minkowski):
+            if isinstance(node, SURFACES):
                 role = Role.ENCLOSED
             elif isinstance(node, Difference) and place > 0:
                 role = Role.SUBTRACTED

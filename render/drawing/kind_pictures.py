@@ -149,6 +149,10 @@ PRIMITIVES: dict[str, tuple[Shape, ...]] = {
     "halfspace": _halfspace(),
     "polyhedron": _gem(),
     "imported_mesh": _mesh(),
+    "relief": (
+        Shape(lines((2, 26), (10, 15), (15, 20), (23, 6), (30, 17), (34, 13), (42, 24), (42, 32), (2, 32)), 0.2),
+        Shape(lines((15, 20), (23, 6), (30, 17), (23, 24)), -0.2),
+    ),
     "rectangle": (Shape(lines((5, 8), (39, 8), (39, 30), (5, 30)), 0.3),),
     "circle": (Shape(ellipse((22, 19), 15, 15), 0.3),),
     "path": (
@@ -198,6 +202,10 @@ SYMBOLS: dict[str, Path] = {
     "intersection": (*lines((-6, 8), (-6, -1), closed=False), *arc((0, -1), 6, 6.5, 180, 360, "L"), ("L", (6, 8))),
     "difference": lines((-7, 0), (7, 0), closed=False),
     "minkowski": (*lines((-7, 0), (7, 0), closed=False), *lines((0, -7), (0, 7), closed=False)),
+    "displace": (
+        ("M", (-8.0, 6.0)), ("L", (-8.0, 0.0)), ("C", (-5.0, -8.0, -3.0, -8.0, 0.0, 0.0)),
+        ("C", (3.0, 8.0, 5.0, 0.0, 8.0, -4.0)), ("L", (8.0, 6.0)), ("Z", ()),
+    ),
     "hull": lines((-7, -1), (-1, -8), (7, -4), (6, 5), (-4, 7)),
     "linear_array": _squares(),
     "polar_array": _circles(),

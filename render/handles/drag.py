@@ -89,6 +89,22 @@ def ring_angle(
     return math.degrees(float((np.asarray(pixel) - start) @ tangent) / square)
 
 
+def grabbed_on_ring(
+    camera: Camera, origin: ArrayLike, direction: ArrayLike, centre: ArrayLike, axis: ArrayLike
+) -> Floats | None:
+    """The point (3,) of a ring about the unit `axis` that a ray takes hold of, for `ring_angle`; None where there is
+    none. Where the ring is seen from its edge that is the side of it that is nearest to the eye."""
+    about, middle = np.asarray(axis, float), np.asarray(centre, float)
+    towards = view_direction(camera, middle)
+    if abs(float(about @ towards)) >= GRAZING:
+        return on_plane(origin, direction, middle, about)
+    hit = on_plane(origin, direction, middle, towards)
+    if hit is None:
+        return None
+    arm = towards - about * float(about @ towards)
+    return middle + arm * max(float(np.linalg.norm(hit - middle)), 1e-6)
+
+
 def unwrapped(angle: float, last: float) -> float:
     """The angle, full turns added, that is nearest to `last`: a ring can be turned round several times."""
     return angle + 360.0 * round((last - angle) / 360.0)

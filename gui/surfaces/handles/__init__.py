@@ -1,0 +1,1 @@
+"""Handles in the picture: lights moved and turned, textures placed."""
