@@ -8,9 +8,11 @@ from pathlib import Path
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.tree import chosen_solids
-from ..solid.results import SolidResult, arrays_of, evaluate_document
+from ..solid.results import Evaluation, SolidResult, arrays_of, evaluate_document
 from ..solid.tessellation import DEFAULT_TOLERANCE
+from ..surface.appearance import is_dressed
 from .curves_out import is_drawing_ending, outlines_to_write, write_curves
+from .dress import check_bitmaps, dress_of
 from .meshes_out import OutSolid, check_ending, write_meshes
 
 
@@ -40,15 +42,24 @@ def solids_to_write(
 ) -> tuple[tuple[SolidResult, ...], list[OutSolid]]:
     """What was evaluated, and of it what goes into a file. Raises Refusal as `export_document` does."""
     wanted = [root.id for root in chosen_solids(document, solid)]
-    results = evaluate_document(document, tolerance, wanted, progress=progress).solids
+    evaluation = evaluate_document(document, tolerance, wanted, progress=progress)
+    results = evaluation.solids
     for result in results:
         if result.solid is None:
             raise Refusal(next(f"“{m.name}”: {m.message}" for m in result.messages if m.error))
-    solids = [
-        OutSolid(result.root.name, result.root.colour, *arrays_of(result.mesh()))
-        for result in results
-        if result.solid is not None and not result.solid.is_empty()
-    ]
+    full = [result for result in results if result.solid is not None and not result.solid.is_empty()]
+    solids = [_out_solid(document, evaluation, result) for result in full]
     if not solids:
         raise Refusal("there is nothing to write: every solid is empty" if results else "the document holds no solid")
     return results, solids
+
+
+def _out_solid(document: Document, evaluation: Evaluation, result: SolidResult) -> OutSolid:
+    root = result.root
+    if is_dressed(document, root):
+        mesh = evaluation.display(result)
+        dress = None if mesh is None else dress_of(document, root, mesh)
+        if mesh is not None and dress is not None:
+            check_bitmaps(dress)
+            return OutSolid(root.name, root.colour, mesh.vertices, mesh.corners, dress)
+    return OutSolid(root.name, root.colour, *arrays_of(result.mesh()))

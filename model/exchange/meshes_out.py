@@ -46,7 +46,8 @@ def check_ending(path: str | os.PathLike[str]) -> str:
 def write_meshes(path: str | os.PathLike[str], solids: Sequence[OutSolid]) -> None:
     """Writes the solids in the format that the path's ending names, wholly or not at all. Raises Refusal.
 
-    3MF, OBJ and GLB keep the solids apart with their names and colours, PLY keeps colours; STL and OFF do not.
+    3MF, OBJ and GLB keep the solids apart with their names and colours, PLY keeps colours; STL and OFF do not. GLB and
+    OBJ keep materials with their bitmaps, OBJ in files beside it.
     """
     writer = WRITERS[check_ending(path)]
     full = [solid for solid in solids if len(solid.triangles)]
@@ -57,4 +58,9 @@ def write_meshes(path: str | os.PathLike[str], solids: Sequence[OutSolid]) -> No
             raise Refusal(f"cannot be written: “{solid.name}” has a coordinate that is no finite number")
         if solid.triangles.min() < 0 or solid.triangles.max() >= len(solid.vertices):
             raise Refusal(f"cannot be written: a triangle of “{solid.name}” asks for a vertex that is not there")
+    if writer is write_obj and any(solid.dress for solid in full):
+        from .obj_dressed import write_dressed_obj
+
+        write_dressed_obj(path, full)
+        return
     replace_file(path, lambda stream: writer(stream, full))

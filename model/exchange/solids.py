@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from .dress import Dress
 
 _ROWS = 1 << 15
 
@@ -23,6 +26,8 @@ class OutSolid:
     """(n, 3)"""
     triangles: NDArray[Any]
     """(m, 3) indices into vertices, counter-clockwise seen from outside"""
+    dress: Dress | None = None
+    """The materials of its faces, where any has one"""
 
 
 def lines(template: str, rows: NDArray[Any]) -> Iterator[bytes]:

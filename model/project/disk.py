@@ -52,7 +52,7 @@ def read_whole(path: str | os.PathLike[str], most: int) -> bytes:
     raise Refusal(f"the file has more than {most / 1e9:.1f} GB, which is more than is read")
 
 
-def replace_file(path: str | os.PathLike[str], write: Callable[[BinaryIO], None]) -> None:
+def replace_file(path: str | os.PathLike[str], write: Callable[[BinaryIO], object]) -> None:
     """Puts a file in the place of `path`, wholly or not at all; permissions and a symbolic link stay.
 
     `write` fills a temporary file in the same folder, which is flushed to the disk and then renamed. Raises Refusal;
