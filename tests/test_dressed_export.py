@@ -124,3 +124,63 @@ def test_a_missing_bitmap_is_told_and_nothing_is_written(tmp_path):
     with pytest.raises(Refusal, match="the material “oak”: its bitmap is missing"):
         save(tmp_path / "a.glb", document)
     assert not (tmp_path / "a.glb").exists()
+
+
+def rows_of(path):
+    return [line.split() for line in path.read_text().splitlines()]
+
+
+def test_bare_solids_wear_nothing_of_the_one_before_in_obj(tmp_path, wood):
+    solids = [box(5).dressed(material("oak", texture=wood)), box(5).at(9), box(5).at(20).coloured("#102030")]
+    save(tmp_path / "a.obj", *solids, box(5).at(30) + box(2).dressed(material("wax")).at(34))
+    worn, names = None, []
+    for word, *rest in rows_of(tmp_path / "a.obj"):
+        if word == "o":
+            names.append(set())
+        elif word == "usemtl":
+            worn = rest[0]
+        elif word == "f":
+            names[-1].add(worn)
+    assert names[:3] == [{"oak"}, {"bare"}, {"102030"}] and names[3] == {"bare", "wax"}
+    defined = {rest[0] for word, *rest in filter(None, rows_of(tmp_path / "a.mtl")) if word == "newmtl"}
+    assert set().union(*names) <= defined
+
+
+def test_normal_maps_stay_normal_maps_in_obj(tmp_path):
+    texels = np.full((4, 4, 3), (188, 127, 238), np.uint8)  # leans by about 30 degrees to the right
+    Image.fromarray(texels).save(tmp_path / "lean.png")
+    worn = material("m", bump=tmp_path / "lean.png", bump_kind="normals", bump_height=1)
+    save(tmp_path / "a.obj", box(5).dressed(worn))
+    (row,) = (row for row in rows_of(tmp_path / "a.mtl") if row and row[0] == "norm")
+    np.testing.assert_allclose(np.asarray(Image.open(tmp_path / row[-1])), texels, atol=2)
+    assert "map_Bump" not in (tmp_path / "a.mtl").read_text()
+
+
+def test_a_normal_map_of_copies_that_are_wider_than_high(tmp_path):
+    """Heights along u over copies of 40 by 10 mm: only the width counts for the slope."""
+    Image.fromarray(np.tile(np.arange(256, dtype=np.uint8), (8, 1))).save(tmp_path / "ramp.png")
+    bumped = material("m", bump=tmp_path / "ramp.png", bump_height=8, wrap="clamp")
+    save(tmp_path / "a.glb", box(40, 10, 1).dressed(bumped, texture(projection="planar", size=(40, 10))))
+    (mesh,) = meshes(tmp_path / "a.glb")
+    normals = np.asarray(mesh.visual.material.normalTexture)[4, 128, :3] / 127.5 - 1.0
+    assert -normals[0] / normals[2] == pytest.approx(8 / 255 * 256 / 40, abs=0.01)
+
+
+@pytest.mark.parametrize("ending", ["stl", "3mf", "ply", "off"])
+def test_formats_without_materials_need_no_bitmap(tmp_path, ending):
+    save(tmp_path / f"a.{ending}", box(5).dressed(material("oak", texture="ab" * 32)))
+    assert (tmp_path / f"a.{ending}").stat().st_size > 80
+
+
+def test_files_beside_an_obj_differ_in_more_than_capitals_and_keep_short(tmp_path, wood):
+    Image.fromarray(255 - TEXELS).save(tmp_path / "other.png")
+    names = ["Oak", "oak", "oak_bump", "x" * 150]
+    coats = [material(name, texture=wood if n % 2 else tmp_path / "other.png", bump=wood)
+             for n, name in enumerate(names)]  # fmt: skip
+    save(tmp_path / "a.obj", *(box(5).at(9 * n).dressed(coat) for n, coat in enumerate(coats)))
+    textures = [row[-1] for row in rows_of(tmp_path / "a.mtl") if row and row[0] in ("map_Kd", "map_Bump")]
+    assert len({name.casefold() for name in textures}) == 8
+    assert max(len(name) for name in textures) < 100
+    for n, name in enumerate(textures[::2]):
+        expected = TEXELS if n % 2 else 255 - TEXELS
+        np.testing.assert_array_equal(np.asarray(Image.open(tmp_path / name))[..., :3], expected)

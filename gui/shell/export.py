@@ -35,7 +35,7 @@ def export(options: argparse.Namespace) -> int:
     """Evaluate and write; the status is 1 where a solid is empty or has failed."""
     from ...model.exchange.curves_out import is_drawing_ending
     from ...model.exchange.export import solids_to_write
-    from ...model.exchange.meshes_out import check_ending, write_meshes
+    from ...model.exchange.meshes_out import check_ending, holds_materials, write_meshes
 
     out = Path(options.out)
     if is_drawing_ending(out):
@@ -51,7 +51,7 @@ def export(options: argparse.Namespace) -> int:
         return DONE
     bar = Bar(document)
     try:
-        results, solids = solids_to_write(document, options.tolerance, options.solid, bar)
+        results, solids = solids_to_write(document, options.tolerance, options.solid, bar, holds_materials(out))
     finally:
         bar.end()
     naming(options.out, lambda: write_meshes(out, solids))

@@ -139,14 +139,15 @@ class Materials:
         coat = piece.coat
         if coat is None:
             return self.of_colour(colour) if colour else None
-        copy = round(piece.copy, 6) if coat.material.bump else 0.0
+        right, up = piece.copy if coat.material.bump else (0.0, 0.0)
+        copy = (round(right, 6), round(up, 6))
         key = (coat, copy)
         if key not in self._rows:
             self._rows[key] = len(self._materials)
             self._materials.append(self._made(coat, copy, data))
         return self._rows[key]
 
-    def _made(self, coat: Coat, copy: float, data: Data) -> dict[str, Any]:
+    def _made(self, coat: Coat, copy: tuple[float, float], data: Data) -> dict[str, Any]:
         """Roughness such that the highlight is as wide: GGX's alpha of Blinn's exponent (Karis 2013), its root."""
         material = coat.material
         base = _to_linear(np.array(rgb(coat.colour or "#ffffff")) / 255).tolist()

@@ -19,7 +19,7 @@ from .solids import OutSolid
 from .stl import write_stl
 from .threemf import write_3mf
 
-__all__ = ["WRITERS", "OutSolid", "check_ending", "write_meshes"]
+__all__ = ["WRITERS", "OutSolid", "check_ending", "holds_materials", "write_meshes"]
 
 WRITERS: dict[str, Callable[[BinaryIO, Sequence[OutSolid]], None]] = {
     "stl": write_stl,
@@ -41,6 +41,11 @@ def check_ending(path: str | os.PathLike[str]) -> str:
             f"cannot be written: {f'.{ending}' if ending else 'no ending'} names no mesh format; known are {known}"
         )
     return ending
+
+
+def holds_materials(path: str | os.PathLike[str]) -> bool:
+    """Whether the format of the path's ending holds materials, bitmaps and texture coordinates."""
+    return Path(path).suffix.lower() in (".glb", ".obj")
 
 
 def write_meshes(path: str | os.PathLike[str], solids: Sequence[OutSolid]) -> None:

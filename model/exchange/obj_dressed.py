@@ -4,41 +4,60 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import BinaryIO
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..document.colours import rgb
 from ..project.disk import replace_file
-from .dress import Coat, height_map, is_translucent, texture_file
+from .dress import Coat, height_map, is_translucent, normal_map, pieces_of, texture_file
 from .solids import OutSolid, lines, plain_name
+
+BARE = "bare"
+"""The material of what has neither a material nor a colour: OBJ goes on with the last one otherwise."""
+LONGEST = 60  # characters of a name that become part of a file's
 
 
 def write_dressed_obj(path: str | os.PathLike[str], solids: Sequence[OutSolid]) -> None:
-    """NAME.obj, NAME.mtl, and the bitmaps as NAME_MATERIAL.png: `map_Kd` of textures, `map_Bump` of heights.
+    """NAME.obj, NAME.mtl, and the bitmaps as NAME_MATERIAL.png: `map_Kd` of textures, `map_Bump` of heights, `norm` of
+    normal maps.
 
     Each solid is an object, in millimetres and with z up. Files of these names are replaced. Raises Refusal.
     """
     path = Path(path)
-    names: dict[Coat | str, str] = {}
-    files: dict[str, bytes] = {}
-    rows: list[str] = []
+    names: dict[Coat | str, str] = {BARE: BARE}
+    files = Files(path.stem)
+    rows = [f"newmtl {BARE}", "Kd 0.8 0.8 0.8", "illum 1", ""]
     for solid in solids:
         for coat in solid.dress.coats if solid.dress is not None else ():
             if coat not in names:
-                names[coat] = _free(coat.material.name, names.values())
-                rows += _material(coat, names[coat], path.stem, files)
+                names[coat] = _free(_safe(coat.material.name), names.values())
+                rows += _material(coat, names[coat], files)
         if solid.colour and solid.colour not in names:
-            names[solid.colour] = _free(solid.colour.removeprefix("#"), names.values())
+            names[solid.colour] = _free(_safe(solid.colour), names.values())
             rows += [f"newmtl {names[solid.colour]}", f"Kd {_numbers(solid.colour)}", "illum 1", ""]
-    for name, data in files.items():
+    for name, data in files.data.items():
         replace_file(path.with_name(name), lambda stream, data=data: stream.write(data))
     text = "# written by Solidtree\n" + "\n".join(rows)
     replace_file(path.with_suffix(".mtl"), lambda stream: stream.write(text.encode()))
     replace_file(path, lambda stream: _write(stream, path.with_suffix(".mtl").name, solids, names))
+
+
+class Files:
+    """The bitmaps that go beside a file of this stem, by their names, which differ in more than capitals."""
+
+    def __init__(self, stem: str) -> None:
+        self._stem = _safe(stem)
+        self.data: dict[str, bytes] = {}
+
+    def add(self, name: str, ending: str, data: bytes) -> str:
+        """The name that these bytes are given."""
+        stem = _free(f"{self._stem}_{name}", (known.rpartition(".")[0] for known in self.data))
+        self.data[f"{stem}.{ending}"] = data
+        return f"{stem}.{ending}"
 
 
 def _write(stream: BinaryIO, library: str, solids: Sequence[OutSolid], names: dict[Coat | str, str]) -> None:
@@ -47,29 +66,26 @@ def _write(stream: BinaryIO, library: str, solids: Sequence[OutSolid], names: di
     for number, solid in enumerate(solids, 1):
         stream.write(f"o {plain_name(solid.name) or f'solid {number}'}\n".encode())
         stream.writelines(lines("v %r %r %r\n", solid.vertices + 0.0))
-        triangles = solid.triangles.astype(np.int64) + before
-        before += len(solid.vertices)
-        dress = solid.dress
-        bare = f"usemtl {names[solid.colour]}\n".encode() if solid.colour else b""
-        if dress is None:
+        bare = f"usemtl {names[solid.colour or BARE]}\n".encode()
+        if solid.dress is None:
             stream.write(bare)
-            stream.writelines(lines("f %d %d %d\n", triangles))
-            continue
-        for coat in np.unique(dress.coat).tolist():
-            mine = np.flatnonzero(dress.coat == coat)
-            if coat < 0:
-                stream.write(bare)
-                stream.writelines(lines("f %d %d %d\n", triangles[mine]))
-                continue
-            places, which = np.unique(dress.coordinates[mine].reshape(-1, 2), axis=0, return_inverse=True)
-            stream.writelines(lines("vt %.9g %.9g\n", places + 0.0))
-            stream.write(f"usemtl {names[dress.coats[coat]]}\n".encode())
-            corners = np.stack((triangles[mine], which.reshape(-1, 3) + flat), axis=2).reshape(-1, 6)
-            stream.writelines(lines("f %d/%d %d/%d %d/%d\n", corners))
-            flat += len(places)
+            stream.writelines(lines("f %d %d %d\n", solid.triangles.astype(np.int64) + before))
+        else:
+            for piece in pieces_of(solid.vertices, solid.triangles, solid.dress):
+                vertex = piece.vertex[piece.triangles] + before
+                if piece.coat is None:
+                    stream.write(bare)
+                    stream.writelines(lines("f %d %d %d\n", vertex))
+                    continue
+                stream.writelines(lines("vt %.9g %.9g\n", piece.coordinates + 0.0))
+                stream.write(f"usemtl {names[piece.coat]}\n".encode())
+                corners = np.stack((vertex, piece.triangles + flat), axis=2).reshape(-1, 6)
+                stream.writelines(lines("f %d/%d %d/%d %d/%d\n", corners))
+                flat += len(piece.coordinates)
+        before += len(solid.vertices)
 
 
-def _material(coat: Coat, name: str, stem: str, files: dict[str, bytes]) -> list[str]:
+def _material(coat: Coat, name: str, files: Files) -> list[str]:
     """Lines of the material file; the bitmaps that they name are put into `files`."""
     material = coat.material
     colour = np.array(rgb(coat.colour or "#ffffff")) / 255.0
@@ -85,29 +101,30 @@ def _material(coat: Coat, name: str, stem: str, files: dict[str, bytes]) -> list
     clamp = "-clamp on " if material.wrap == "clamp" else ""
     if material.texture:
         data, kind = texture_file(coat)
-        file = f"{_safe(stem)}_{name}.{'jpg' if kind == 'jpeg' else kind}"
-        files[file] = data
+        file = files.add(name, "jpg" if kind == "jpeg" else kind, data)
         rows.append(f"map_Kd {clamp}{file}")
         if is_translucent(coat) and kind == "png":
             rows.append(f"map_d {clamp}{file}")
-    if material.bump:
-        file = f"{_safe(stem)}_{name}_bump.png"
-        files[file] = height_map(material)
+    if material.bump and material.bump_kind == "normals":
+        rows.append(f"norm {clamp}{files.add(f'{name}_normals', 'png', normal_map(material, (1.0, 1.0)))}")
+    elif material.bump:
+        file = files.add(f"{name}_bump", "png", height_map(material))
         rows.append(f"map_Bump {clamp}-bm {material.bump_height:g} {file}")
     return [*rows, ""]
 
 
-def _free(wanted: str, taken: Any) -> str:
-    name = stem = _safe(wanted)
-    number = 2
-    while name in taken:
-        name, number = f"{stem}_{number}", number + 1
+def _free(wanted: str, taken: Iterable[str]) -> str:
+    """The name, or with a number where one that differs in capitals at most is taken."""
+    known = {name.casefold() for name in taken}
+    name, number = wanted, 2
+    while name.casefold() in known:
+        name, number = f"{wanted}_{number}", number + 1
     return name
 
 
 def _safe(name: str) -> str:
     """A name without what a material file, or a file system, could not hold: OBJ has no quotation marks."""
-    return re.sub(r"[^\w.-]+", "_", name).strip("._") or "material"
+    return re.sub(r"[^\w.-]+", "_", name)[:LONGEST].strip("._") or "material"
 
 
 def _numbers(colour: str) -> str:

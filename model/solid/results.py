@@ -22,6 +22,7 @@ from .display import DisplayMesh, display_mesh
 from .entry import Entry, Problem
 from .evaluate import Evaluator
 from .outlines.profiles import profile_of
+from .provenance import Path as OccurrencePath
 from .provenance import occurrences, owners_of_runs
 from .tessellation import DEFAULT_TOLERANCE
 
@@ -127,6 +128,26 @@ def remarks_on_lettering(root: Node) -> tuple[Message, ...]:
                 seen.add(id(child))
                 stack.append(child)
     return tuple(found)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class OwnedFaces:
+    """A solid's triangles (t, 3), `corners`, over its vertices (n, 3), and who made them: the numbers in `owner` (t,)
+    are places in `owners`."""
+
+    vertices: NDArray[np.float64]
+    corners: NDArray[np.int64]
+    owner: NDArray[np.int32]
+    owners: tuple[OccurrencePath, ...]
+
+
+def owned_faces(result: SolidResult, evaluator: Evaluator) -> OwnedFaces:
+    """What a file needs of an evaluated root."""
+    mesh = result.mesh()
+    found = occurrences(result.root)
+    of_run = owners_of_runs(mesh, result.root, evaluator.originals, found)
+    owner = np.repeat(of_run, np.diff(np.asarray(mesh.run_index).astype(np.int64) // 3))
+    return OwnedFaces(*arrays_of(mesh), owner, tuple(occurrence.path for occurrence in found))
 
 
 def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:

@@ -21,6 +21,7 @@ from .material import Material
 if TYPE_CHECKING:
     from ..solid.display import DisplayMesh
     from ..solid.provenance import Occurrence
+    from ..solid.results import OwnedFaces
 
 Path = tuple[str | int, ...]
 
@@ -137,7 +138,7 @@ def _matrix_at(occurrence: Occurrence, place: int, matrices: dict[Path, Floats])
     return matrix
 
 
-def coordinates(mesh: DisplayMesh, looks: Sequence[Appearance]) -> Floats:
+def coordinates(mesh: DisplayMesh | OwnedFaces, looks: Sequence[Appearance]) -> Floats:
     """(t, 3, 2) texture coordinates at the corners of the triangles of a mesh whose owners look so.
 
     Triangles that a seam runs through go on beyond 1 instead of back.
