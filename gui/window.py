@@ -45,6 +45,7 @@ from .panels.sections import Sections
 from .parameters.parameters import Parameters
 from .partition.panel import BspPanel
 from .settings import LAYOUT_VERSION, Settings
+from .side_windows import SideWindows
 from .status import StatusBar, shown_solids
 from .surfaces.handles.light_tool import LightTool
 from .surfaces.handles.mapping_tool import MappingTool
@@ -69,7 +70,6 @@ from .wiring import connect
 
 if TYPE_CHECKING:
     from ..model.worker.shown import Shown
-    from .lettering.font_window import FontWindow
 
 UNSEEN = 500  # milliseconds that the start waits for the window to appear
 
@@ -90,6 +90,7 @@ class MainWindow(QMainWindow):
         self.evaluation = Evaluation(self.session, self)
         self.evaluation.set_tolerance(self.settings.tolerance("display"))
         self.looks = Looks(self)
+        self.side_windows = SideWindows(self)
         self._closing = False
         self.curve = ActiveCurve(self.session, self)
 
@@ -297,12 +298,6 @@ class MainWindow(QMainWindow):
         return Palette(self)
 
     @cached_property
-    def font_window(self) -> FontWindow:
-        from .lettering.font_window import FontWindow
-
-        return FontWindow(self)
-
-    @cached_property
     def space_bar(self) -> SpaceBar:
         return SpaceBar(self)
 
@@ -353,8 +348,7 @@ class MainWindow(QMainWindow):
             return
         self._closing = True
         self.settings.keep_layout(self.saveGeometry(), self.saveState(LAYOUT_VERSION))
-        if "font_window" in self.__dict__:
-            self.font_window.end()
+        self.side_windows.end()
         self._unlisten()
         self.files.background.close()
         self.hidden_surfaces.close()

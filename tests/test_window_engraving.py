@@ -6,6 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QPlainTextEdit, QSlider
 
+from solidtree.gui.lettering.font_window import FontWindow
 from solidtree.model.document.from_outlines import Extrude, Wrap
 from solidtree.model.document.nodes import Difference, Union
 from solidtree.model.document.tree import walk
@@ -123,7 +124,7 @@ def test_a_name_is_written_set_leaned_a_glyph_edited_engraved_and_all_undone(mak
     assert (letters.text, letters.font) == ("Ill", "GFS Didot") and 1 <= letters.slant <= 30
 
     driver.keys("Alt+G", driver.window.viewport)
-    fonts = driver.window.font_window
+    fonts = driver.window.side_windows.of(FontWindow)
     driver.qtbot.waitUntil(fonts.isActiveWindow)
     assert (fonts.desk.font, fonts.desk.glyph) == ("GFS Didot", "I")
     contour = fonts.desk.drawn.outline.contours[0]

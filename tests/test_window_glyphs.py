@@ -7,6 +7,7 @@ from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QDialogButtonBox, QFileDialog, QWidget
 
+from solidtree.gui.lettering.font_window import FontWindow
 from solidtree.gui.lettering.glyph_model import EDITED, NAME
 from solidtree.gui.lettering.save_font import SaveFont
 from solidtree.model.document.table import same_document
@@ -28,7 +29,7 @@ def opened(make_window):
         driver = make_window(document_of(extrude(lettering(text, 20, DIDOT), 2)))
         driver.session.select([driver.document.solids[0].children[0].id])
         driver.keys("Alt+G", driver.window.viewport)
-        window = driver.window.font_window
+        window = driver.window.side_windows.of(FontWindow)
         driver.qtbot.waitExposed(window)
         driver.qtbot.waitUntil(window.isActiveWindow)
         return driver, window

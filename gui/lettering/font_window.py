@@ -183,7 +183,7 @@ class FontWindow(QMainWindow):
 
 def open_font_window(window: MainWindow) -> None:
     """The font of the selected lettering, or the one that was open last."""
-    found = window.font_window
+    found = window.side_windows.of(FontWindow)
     nodes = [node for node in chosen(window.session).nodes if isinstance(node, Lettering)]
     if nodes:
         found.show_font(nodes[0].font, nodes[0].text)
