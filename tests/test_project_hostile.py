@@ -12,7 +12,7 @@ from project_files import CUBE, packed, project, sample
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.project.assets import AssetStore
-from solidtree.model.project.project_file import open_project, save_project
+from solidtree.model.project.project_file import FORMAT, open_project, save_project
 
 
 @pytest.fixture
@@ -69,7 +69,7 @@ def test_places_that_cannot_be_read(tmp_path):
          "section “a”: the normal must be a direction"),
         (project({"format": 2, "sets": [{"name": "a", "values": [["w"]]}]}), "is no pair of a parameter's name"),
         (project({"format": 2, "sets": [{"name": "a", "values": [["w", "=w +"]]}]}), "w +"),
-        (project({"format": 7}), "was written by a newer Solidtree (format 7); this one reads up to 4"),
+        (project({"format": FORMAT + 1}), f"(format {FORMAT + 1}); this one reads up to {FORMAT}"),
         (project({"format": 1, "nodes": {"n1": {"kind": "Teapot"}}, "solids": ["n1"]}), "n1 is of an unknown kind"),
         (project({"format": 1, "nodes": {}, "solids": ["a\nb\ud800"]}), "node a·b·, asked for"),
         (project({"format": 1, "nodes": {"n1": {"kind": "Box", "size": [1, 1]}}, "solids": ["n1"]}), "node n1"),
