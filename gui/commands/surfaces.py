@@ -203,11 +203,19 @@ def _placed(window: MainWindow, kind: str) -> dict[str, Any]:
     return {"position": tuple(round(float(part), 1) + 0.0 for part in place)}
 
 
+def _compare(window: MainWindow) -> None:
+    from ..comparison.comparison_window import open_comparison
+
+    open_comparison(window)
+
+
 SURFACE_SEPARATORS = ("use_material", "lights_panel")
 """Before these a line is drawn in the menu."""
 SURFACE_COMMANDS: tuple[Command, ...] = (
     Command("surfaces_panel", "Surfaces panel", "View", _switch(MATERIALS), shortcut="Alt+M", icon="surfaces",
             tip="Materials, textures, and the lights of the document"),
+    Command("compare_shadings", "Compare shadings …", "View/Shading", _compare, shortcut="Alt+Shift+S",
+            icon="compare_shadings", tip="A sphere or the selected solid in flat, Gouraud and Phong, side by side"),
     Command("add_material", "Add material", MENU, _add, icon="surfaces",
             tip="A material that takes light as the program's own; change it in the Surfaces panel"),
     Command("material_from_bitmap", "Material from a bitmap …", MENU, _from_bitmap, icon="texture",

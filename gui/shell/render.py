@@ -19,6 +19,9 @@ from .parameters import add_options as add_parameter_options
 from .parameters import read_with_values
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from ...model.document.nodes import Node
     from ...model.solid.display import DisplayMesh
     from ...render.camera import Camera
@@ -36,6 +39,11 @@ def add_options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--hidden-surface", choices=("zbuffer", "bsp"), default="zbuffer", help="default zbuffer")
     command.add_argument("--style", choices=("shaded", "edges", "wireframe", "hidden-line"), default="shaded")
     command.add_argument("--shading", choices=SHADINGS, help="default that of the document, else phong")
+    command.add_argument(
+        "--compare-shadings",
+        action="store_true",
+        help="flat, Gouraud, Phong, and Phong with bumps side by side; prints by how much they differ",
+    )
     command.add_argument("--opacity", type=_share, default=1.0, metavar="A", help="from 0 to 1")
     command.add_argument(
         "--colours",
@@ -133,6 +141,8 @@ def render(options: argparse.Namespace) -> int:
     sections = [*options.section, *(s for s in document.sections if options.sections and s.active)]
     if sections and options.ids is not None:
         raise Refusal("--ids numbers whole solids: leave the sections out")
+    if options.compare_shadings and (options.ids is not None or sections or options.hidden_surface == "bsp"):
+        raise Refusal("--compare-shadings goes with neither --ids, sections nor --hidden-surface bsp")
     if len(sections) > MOST_ACTIVE:
         raise Refusal(f"at most {MOST_ACTIVE} sections open a picture at once, not {len(sections)}")
     bar = Bar(document)
@@ -156,7 +166,9 @@ def render(options: argparse.Namespace) -> int:
     from ...render import picture
 
     view, perspective = _camera(options, meshes)
-    if options.ids is not None:
+    if options.compare_shadings:
+        pixels = _compared(options, document, [(r, m) for r, m in shown if not m.sheet], view, perspective)
+    elif options.ids is not None:
         numbers = picture.facet_numbers(meshes) if options.ids == "faces" else None
         pixels = picture.ids_picture(meshes, options.size, view, numbers=numbers, perspective=perspective,
                                      hidden_surface=options.hidden_surface)  # fmt: skip
@@ -188,6 +200,40 @@ def render(options: argparse.Namespace) -> int:
         warn(options.file, "there is nothing to be seen")
         return NOT_IN_ORDER
     return status if whole else NOT_IN_ORDER
+
+
+def _compared(
+    options: argparse.Namespace,
+    document: Document,
+    solids: list[tuple[Node, DisplayMesh]],
+    view: Camera | str,
+    perspective: float | None,
+) -> NDArray[np.uint8]:
+    """The columns of a comparison in one picture; what they differ by is printed."""
+    from itertools import pairwise
+
+    import numpy as np
+
+    from ...render.camera import Camera
+    from ...render.look import LIGHT
+    from ...render.surfaces.comparison import SHADINGS as COLUMNS
+    from ...render.surfaces.comparison import Comparison, columns_of, difference
+    from ...render.views import camera_of
+
+    width, height = max(options.size[0] // len(COLUMNS), 1), options.size[1]
+    comparison = Comparison(LIGHT)
+    try:
+        comparison.show(columns_of(document, solids), lights_of(document.lights))
+        if not isinstance(view, Camera):
+            view = camera_of(comparison.bounds(), width / height, view, perspective=perspective)
+        pictures = comparison.draw(view, (width, height))
+    finally:
+        comparison.close()
+    for (one, other), names in zip(pairwise(pictures), pairwise(COLUMNS), strict=True):
+        found = difference(one, other)
+        share = f"more than 2 on {100.0 * found.share():.1f} % of the picture"
+        print(f"{names[0]} and {names[1]}: up to {found.greatest} grey levels, {share}")
+    return np.hstack(pictures)
 
 
 def _leaves(section: Section, mesh: DisplayMesh) -> bool:

@@ -1,0 +1,1 @@
+"""The window that shows one model under several shadings side by side."""
