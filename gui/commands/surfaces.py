@@ -209,6 +209,12 @@ def _compare(window: MainWindow) -> None:
     open_comparison(window)
 
 
+def _inspect(window: MainWindow) -> None:
+    from ..bitmap.bitmap_window import open_inspector
+
+    open_inspector(window)
+
+
 SURFACE_SEPARATORS = ("use_material", "lights_panel")
 """Before these a line is drawn in the menu."""
 SURFACE_COMMANDS: tuple[Command, ...] = (
@@ -216,6 +222,8 @@ SURFACE_COMMANDS: tuple[Command, ...] = (
             tip="Materials, textures, and the lights of the document"),
     Command("compare_shadings", "Compare shadings …", "View/Shading", _compare, shortcut="Alt+Shift+S",
             icon="compare_shadings", tip="A sphere or the selected solid in flat, Gouraud and Phong, side by side"),
+    Command("bitmap_inspector", "Bitmap inspector \u2026", "Tools", _inspect, shortcut="Alt+I", icon="bitmap_inspector",
+            tip="The pixels of a bitmap one by one: header, bytes, palette, memory, depth, compression, tiles"),
     Command("add_material", "Add material", MENU, _add, icon="surfaces",
             tip="A material that takes light as the program's own; change it in the Surfaces panel"),
     Command("material_from_bitmap", "Material from a bitmap …", MENU, _from_bitmap, icon="texture",

@@ -44,6 +44,13 @@ class BitmapRow(QWidget):
         self.size_words = QLabel(self)
         self.size_words.setProperty("muted", True)
         self.size_words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.inspect = QToolButton(self)
+        self.inspect.setObjectName(f"{field}_inspect")
+        self.inspect.setProperty("flat", True)
+        self.inspect.setIcon(icon("bitmap_inspector"))
+        self.inspect.setToolTip("Look at the bitmap in the inspector")
+        self.inspect.setAccessibleName(f"Inspect the bitmap of the {words(field)}")
+        self.inspect.clicked.connect(self._inspect)
         self.clear = QToolButton(self)
         self.clear.setObjectName(f"{field}_clear")
         self.clear.setProperty("flat", True)
@@ -56,11 +63,13 @@ class BitmapRow(QWidget):
         line.setSpacing(4)
         line.addWidget(self.picture)
         line.addWidget(self.size_words, 1)
+        line.addWidget(self.inspect)
         line.addWidget(self.clear)
 
     def show_material(self, material: Material) -> None:
         self._name, sha = material.name, getattr(material, self._field)
         self.clear.setEnabled(bool(sha))
+        self.inspect.setEnabled(bool(sha))
         if sha == self.sha and not self.picture.icon().isNull():
             return
         self.sha = sha
@@ -81,6 +90,11 @@ class BitmapRow(QWidget):
         """Read a file."""
         name = self._name
         take_bitmap(self._window, path, lambda sha, path: self.chosen.emit(name, sha))
+
+    def _inspect(self) -> None:
+        from ..bitmap.bitmap_window import open_inspector
+
+        open_inspector(self._window, self.sha, f"{self._name}: {words(self._field)}")
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:
         if bitmap_paths(event.mimeData()):
