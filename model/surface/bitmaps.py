@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from ..document.colours import rgb
 from ..document.errors import Refusal
 
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+"""The shares of red, green and blue (ITU-R BT.709)."""
 LARGEST_SIDE = 8192
 """Texels along one side that a picture is given; larger bitmaps are halved until they fit."""
 
@@ -61,7 +63,7 @@ def keyed(rgba: NDArray[np.uint8], key: str | None) -> NDArray[np.uint8]:
 
 def luminance(rgba: NDArray[np.uint8]) -> NDArray[np.float64]:
     """(height, width) 0 to 1: the mean weighed as ITU-R BT.709 has it, of the values as they are stored."""
-    return rgba[..., :3] @ np.array([0.2126, 0.7152, 0.0722]) / 255.0
+    return rgba[..., :3] @ LUMINANCE / 255.0
 
 
 def slopes_of(rgba: NDArray[np.uint8], kind: str, height: float, wrap: bool) -> NDArray[np.float32]:
