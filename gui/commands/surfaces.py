@@ -24,6 +24,10 @@ def _no_node(window: MainWindow) -> str | None:
     return None if window.session.selection else "select a node first"
 
 
+def _no_solid(window: MainWindow) -> str | None:
+    return None if any(root.visible for root in window.session.document.solids) else "no solid is visible"
+
+
 def _not_one(window: MainWindow) -> str | None:
     return None if len(window.session.selection) == 1 else "select one node first"
 
@@ -215,6 +219,18 @@ def _inspect(window: MainWindow) -> None:
     open_inspector(window)
 
 
+def _probe(window: MainWindow) -> None:
+    from ..shading.light_window import switch_probe
+
+    switch_probe(window)
+
+
+def _unwrapped(window: MainWindow) -> None:
+    from ..shading.uv_window import open_uv_window
+
+    open_uv_window(window)
+
+
 SURFACE_SEPARATORS = ("use_material", "lights_panel")
 """Before these a line is drawn in the menu."""
 SURFACE_COMMANDS: tuple[Command, ...] = (
@@ -241,6 +257,8 @@ SURFACE_COMMANDS: tuple[Command, ...] = (
     Command("texture_placement", "Edit texture placement", MENU, _placement, _not_one,
             icon="texture_placement", tip="Handles in the picture that shift and turn the bitmap on the selected node",
             checked=lambda w: w.mapping_tool.active),
+    Command("texture_coordinates", "Texture coordinates \u2026", MENU, _unwrapped, shortcut="Alt+Shift+U",
+            icon="texture_coordinates", tip="The triangles of the selected node as they lie on its bitmap"),
     Command("lights_panel", "Lights panel", MENU, _switch(LIGHTS), shortcut="Alt+Shift+L", icon="add_ambient_light",
             tip="The lights of the document, and its shading"),
     Command("add_ambient_light", "Add ambient light", MENU, _add_light("ambient"), icon="add_ambient_light",
@@ -251,6 +269,8 @@ SURFACE_COMMANDS: tuple[Command, ...] = (
             tip="Light from a place, at first over your left shoulder"),
     Command("own_lights", "Make the lights the document's", MENU, _own_lights, _lit, icon="own_lights",
             tip="The lights that the program has by itself, as lights of the document that can be changed"),
+    Command("light_probe", "Light of a point", MENU, _probe, _no_solid, "Alt+Shift+P", "probe",
+            "Click a face: the equation of its light with the numbers put in, beside the picture's pixel"),
     Command("delete_light", "Delete light", MENU, _delete_light, _no_light, icon="delete",
             tip="Take the chosen light out; without lights those of the program shine"),
 )  # fmt: skip

@@ -135,7 +135,7 @@ class Viewport(Canvas):
         if before.document is not after.document or before.isolated != after.isolated:
             self._show()  # colours and visibility need no evaluation
         elif before.selection != after.selection:
-            self._highlight()
+            self.show_selection()
         for tool in self.tools:
             tool.session_changed(before, after)
 
@@ -152,7 +152,7 @@ class Viewport(Canvas):
         self.viewer.set_lights(lights_of(document.lights))
         self.viewer.show(shown)
         self.displayed.emit({root_id: mesh for root_id, (mesh, _) in shown.items() if not mesh.sheet})
-        self._highlight()
+        self.show_selection()
         if self._fit_pending and shown:
             self._fit_pending = False
             self.viewer.fit()
@@ -163,7 +163,8 @@ class Viewport(Canvas):
         if self._painted.set_by_node(by_node):
             self._show()
 
-    def _highlight(self) -> None:
+    def show_selection(self) -> None:
+        """Tint what is selected."""
         if self.viewer is not None:
             owners = (mesh.owners for mesh in self._painted.meshes)
             self.viewer.set_selection(paths_through(self._session.selection, owners))
