@@ -11,6 +11,7 @@ from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent, QShowEvent
 from PySide6.QtWidgets import QApplication, QMainWindow
 
 from ..model.editing.session import Session, State
+from ..model.surface.faults import bitmap_faults
 from .commands.actions import Actions
 from .commands.menus import fill_menus
 from .commands.nodes import NODE_BUTTONS
@@ -236,6 +237,8 @@ class MainWindow(QMainWindow):
         self.setWindowModified(self.session.modified)
         if self.session.previewing:
             return
+        if before.document.materials != after.document.materials:
+            self._tell_problems()
         self.follow_empty()
         self.isolation.follow()
         if before.selection != after.selection:
@@ -253,13 +256,19 @@ class MainWindow(QMainWindow):
         meshes = shown.solids | shown.outlines
         if meshes or not any(problem.error and not problem.node_id for problem in shown.problems):
             self.viewport.show_meshes({root: one.mesh for root, one in meshes.items() if one.mesh is not None})
-        self.tree.nodes.set_problems(shown.problems)
-        self.problems.set_problems(shown.problems)
-        self.status.set_problem(next((problem.sentence for problem in shown.problems if problem.error), ""))
+        self._tell_problems()
         self.status.set_time(seconds)
         self.measure_selection()
         if not self.session.previewing:
             self.actions_.refresh()
+
+    def _tell_problems(self) -> None:
+        """What the evaluation says of nodes, and what is wrong with the bitmaps that they wear."""
+        latest = self.evaluation.latest
+        problems = (*(() if latest is None else latest.problems), *bitmap_faults(self.session.document))
+        self.tree.nodes.set_problems(problems)
+        self.problems.set_problems(problems)
+        self.status.set_problem(next((problem.sentence for problem in problems if problem.error), ""))
 
     def measure_selection(self) -> None:
         shown, selection, document = self.evaluation.latest, self.session.selection, self.session.document

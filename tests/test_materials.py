@@ -15,12 +15,13 @@ from solidtree.model.editing.echo import call
 from solidtree.model.editing.session import Session
 from solidtree.model.operations.operations import OPERATIONS
 from solidtree.model.operations.pasting import clip
-from solidtree.model.project.assets import AssetStore, references
+from solidtree.model.project.assets import AssetStore, default_store, references
 from solidtree.model.project.project_file import open_project, save_project
 from solidtree.model.script import box, document_of, evaluate, light, material, save, sphere, texture
 from solidtree.model.solid.evaluate import Evaluator
 from solidtree.model.surface.bitmaps import texels_of
-from solidtree.model.surface.material import PRESETS
+from solidtree.model.surface.faults import bitmap_faults
+from solidtree.model.surface.material import MOST_BITMAPS, PRESETS
 
 SHA = "ab" * 32
 
@@ -213,3 +214,27 @@ def test_a_look_changes_no_measure(part):
     plain = evaluate(part).solids[0].measures()
     dressed = evaluate(document_of(part.solids[0].dressed(material("m"), texture(projection="box")))).solids[0]
     assert dressed.measures().volume == plain.volume
+
+
+def test_missing_bitmaps_and_too_many_are_told_once_a_material(tmp_path):
+    lost = material("lost", texture="ab" * 32, bump="cd" * 32)
+    document = document_of(box(5).named("a").dressed(lost), box(5).named("b").dressed(lost))
+    found = bitmap_faults(document)
+    assert [(fault.name, fault.message) for fault in found] == [
+        ("a", "the material “lost”: its bitmap is missing from the project")
+    ] * 2
+    assert not any(fault.error for fault in found)
+    coats = []
+    for number in range(MOST_BITMAPS + 3):
+        Image.fromarray(np.full((2, 2, 3), 10 * number, np.uint8)).save(tmp_path / f"{number}.png")
+        coats.append(material(f"m{number}", texture=tmp_path / f"{number}.png"))
+    (fault,) = bitmap_faults(document_of(*(box(1).at(2 * n).dressed(coat) for n, coat in enumerate(coats))))
+    assert f"“m{MOST_BITMAPS}”" in fault.message
+
+
+def test_render_tells_of_a_bitmap_that_cannot_be_read_and_draws_all_the_same(tmp_path, solidtree):
+    broken = default_store().put(b"no bitmap at all")
+    save(tmp_path / "a.solidtree", box(5).dressed(material("lost", texture=broken)))
+    status, _, told = solidtree("render", tmp_path / "a.solidtree", tmp_path / "a.png", "--size", "40x30")
+    assert status == 0 and "the material “lost”: " in told and "it is no bitmap that can be read" in told
+    assert (tmp_path / "a.png").stat().st_size > 80

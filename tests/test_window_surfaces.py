@@ -299,3 +299,15 @@ def test_a_swatch_is_lit_from_the_upper_left_and_shows_what_is_translucent():
     lit = sphere_pixels(matt, 32)[..., :3].sum(axis=2)
     assert lit[9, 9] > lit[22, 22] and sphere_pixels(matt, 32)[0, 0, 3] == 0
     assert len(np.unique(sphere_pixels(matt.with_(opacity=0.0), 32)[14:18, 8:24, 0])) > 1  # the squares behind it
+
+
+def test_a_missing_bitmap_is_a_problem_until_the_material_has_another(opened):
+    driver = opened(None, materials=(Material("lost", texture="ab" * 32),))
+    part = driver.node("part")
+    driver.session.do("use_material", [part.id], "lost", label="Put on")
+    driver.settle()
+    problems = driver.window.problems.list
+    assert problems.count() == 1 and "its bitmap is missing" in problems.item(0).text()
+    driver.session.do("set_material", "lost", texture="", label="Without")
+    driver.settle()
+    assert problems.count() == 0

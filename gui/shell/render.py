@@ -11,6 +11,7 @@ from ...model.document.document import Document, Section
 from ...model.document.errors import Refusal
 from ...model.operations.sections import MOST_ACTIVE
 from ...model.surface.appearance import appearances, is_dressed
+from ...model.surface.faults import bitmap_faults
 from ...model.surface.light import lights_of
 from ...model.surface.material import SHADINGS
 from ..command_line import NOT_IN_ORDER, TOLERANCE, Bar, complain, positive, warn
@@ -154,7 +155,8 @@ def render(options: argparse.Namespace) -> int:
     finally:
         bar.end()
     results = (*evaluation.visible, *(result for result in evaluation.profiles if result.root.visible))
-    status = told(options.file, (message for result in results for message in result.messages), document)
+    messages = [message for result in results for message in result.messages]
+    status = told(options.file, [*messages, *bitmap_faults(document)], document)
     shown = [(result.root, mesh) for result in evaluation.visible if (mesh := evaluation.display(result)) is not None]
     whole = len(shown) == len(evaluation.visible)
     if options.ids is None:  # which numbers solids

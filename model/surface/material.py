@@ -17,6 +17,8 @@ BITMAPS = ("texture", "bump", "reflection", "light_map")
 BUMPS = ("heights", "normals")
 WRAPS = ("repeat", "mirror", "clamp")
 LARGEST = 1e6
+MOST_BITMAPS = 12
+"""That one picture shows at once: graphics cards let a shader read 16 textures at least."""
 _SHA = re.compile(r"[0-9a-f]{64}")
 
 # The least and the most of each number.

@@ -21,8 +21,6 @@ TABLE = "surfaceTable"
 BITMAP = "surfaceBitmap"
 SHADOW = "surfaceShadowMap"
 POSITION, NUMBER = "surfacePosition", "surfaceNumber"
-MOST_BITMAPS = 12
-"""Graphics cards let a shader read 16 textures at least."""
 TEXELS = 8
 """Of four numbers each, for one surface in the table."""
 

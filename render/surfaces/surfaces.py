@@ -13,7 +13,7 @@ from ...model.surface.bitmaps import texels_of
 from ...model.surface.intensity import colour_of
 from ...model.surface.light import MOST, PROGRAM, Light
 from ...model.surface.mapping import KINDS
-from ...model.surface.material import SHADINGS, Material
+from ...model.surface.material import MOST_BITMAPS, SHADINGS, Material
 from ..camera import frame
 from . import shader as glsl
 from .bitmaps import bitmap_texture, image_of, slopes_texture, texture_of
@@ -34,8 +34,6 @@ class Surfaces:
 
     def __init__(self) -> None:
         self.lights: tuple[Light, ...] = PROGRAM
-        self.problems: tuple[str, ...] = ()
-        """Why bitmaps are not shown, in words for users."""
         self.shadows = Shadows()
         self._looks: dict[Appearance, int] = {}
         self._textures: dict[Key, vtkTexture] = {}
@@ -169,24 +167,18 @@ class Surfaces:
                 fragment.SetUniformf(f"surfaceOffset{number}", self.shadows.offsets[number])
 
     def _choose_bitmaps(self) -> None:
-        problems: list[str] = []
+        """What cannot be shown is left out here; model/surface/faults.py tells of it."""
         textures: dict[Key, vtkTexture] = {}
         slots: dict[Key, int] = {}
-        for look in self._looks:
-            for key in _keys(look.material):
-                if key in slots:
-                    continue
-                name = look.material.name if look.material else ""
-                if len(slots) == glsl.MOST_BITMAPS:
-                    problems.append(f"the material “{name}”: a picture shows {glsl.MOST_BITMAPS} bitmaps at once")
-                    continue
-                try:
-                    textures[key] = self._textures.get(key) or _texture(key)
-                except Refusal as refusal:
-                    problems.append(f"the material “{name}”: {refusal}")
-                    continue
-                slots[key] = len(slots)
-        self._textures, self._slots, self.problems = textures, slots, tuple(dict.fromkeys(problems))
+        for key in (key for look in self._looks for key in _keys(look.material)):
+            if key in slots or len(slots) == MOST_BITMAPS:
+                continue
+            try:
+                textures[key] = self._textures.get(key) or _texture(key)
+            except Refusal:
+                continue
+            slots[key] = len(slots)
+        self._textures, self._slots = textures, slots
 
     @staticmethod
     def _shading(look: Appearance, shading: str) -> str:
