@@ -6,10 +6,14 @@ from light_reference import first_hits
 from PIL import Image
 from test_shading import shown
 
+from solidtree.model.image.tiled_file import TiledFile
+from solidtree.model.project.assets import default_store
 from solidtree.model.script import box, cone, cylinder, light, linear_array, material, mirror, sphere, texture, torus
 from solidtree.model.surface.appearance import coordinates
+from solidtree.model.surface.bitmaps import keep_bitmap, small_texels, texels_of
 from solidtree.model.surface.intensity import Eye, terms
 from solidtree.model.surface.material import Material
+from solidtree.model.surface.pyramid import level_of, tiles_path
 from solidtree.render.camera import Camera, frame
 from solidtree.render.picture import picture
 
@@ -255,3 +259,22 @@ def test_reflections_come_from_the_panorama_and_light_maps_scale_light(written):
         for extra in ({}, {"light_map": grey})
     )  # fmt: skip
     assert dim == pytest.approx(0.2 * whole, abs=2.0)
+
+
+def test_large_bitmaps_lie_in_tiles_and_are_read_at_the_size_wanted(tmp_path):
+    """A ramp of 5,000 by 4,000 pixels, more than are held at once: what is read is its mean over squares."""
+    across = (np.arange(5000) * 255 // 4999).astype(np.uint8)
+    plain = np.full((4000, 5000), 9, np.uint8)
+    pixels = np.dstack((np.tile(across, (4000, 1)), plain, plain))
+    Image.fromarray(pixels).save(tmp_path / "large.png", compress_level=1)
+    sha = keep_bitmap(tmp_path / "large.png")
+    whole = texels_of(sha)
+    np.testing.assert_array_equal(whole[..., :3], pixels)
+    assert tiles_path(default_store().path(sha)).exists()
+    small = small_texels(sha, 256)
+    assert small.shape[:2] == (125, 157)
+    expected = pixels[:4000, : 156 * 32].reshape(125, 32, 156, 32, 3).mean(axis=(1, 3))
+    assert np.abs(small[:, :156, :3] - expected).max() <= 1.5
+    file = TiledFile(tiles_path(default_store().path(sha)))
+    level_of(file, 256)
+    assert file.bytes_read < 4 * 256 * 256 * 2

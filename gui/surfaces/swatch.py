@@ -12,7 +12,7 @@ from PySide6.QtGui import QIcon, QImage, QPixmap
 
 from ...model.document.colours import rgb
 from ...model.document.errors import Refusal
-from ...model.surface.bitmaps import halved, keyed, luminance, slopes_of, texels_of
+from ...model.surface.bitmaps import keyed, luminance, slopes_of, small_texels
 from ...model.surface.intensity import Eye, terms
 from ...model.surface.light import PROGRAM
 from ...model.surface.mapping import turns
@@ -23,19 +23,9 @@ Floats = NDArray[np.float64]
 PLAIN = "#a9b8c9"
 """The colour of a sphere whose material has none."""
 GROUND = (205.0, 165.0)  # grey levels of the squares behind what is translucent
-SMALL = 256  # texels along a side of what pictures are made from
 RADIUS = 12.0  # mm, against which bumps are high or low
 FACETS = (16, 8)  # of a sphere with flat shading, around and up
 TURNED = np.radians(215.0)  # where the bitmap's middle is before the eye, seen a little from above
-
-
-@lru_cache(maxsize=64)
-def small_texels(sha: str) -> NDArray[np.uint8]:
-    """(height, width, 4) of an asset, halved until it is small. Raises Refusal."""
-    rgba = texels_of(sha)
-    while max(rgba.shape[:2]) > SMALL:
-        rgba = halved(rgba)
-    return rgba
 
 
 @lru_cache(maxsize=256)

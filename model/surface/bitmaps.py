@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from ..document.colours import rgb
 from ..document.errors import Refusal
+from ..image.tiled_file import TiledFile
+from .pyramid import TILED_FROM, keep_tiles, level_of, tiles_path
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 """The shares of red, green and blue (ITU-R BT.709)."""
@@ -30,14 +32,43 @@ def keep_bitmap(path: str | os.PathLike[str]) -> str:
 @lru_cache(maxsize=16)
 def texels_of(sha: str) -> NDArray[np.uint8]:
     """(height, width, 4) RGBA of an asset, rows from the top down; read-only. Raises Refusal."""
-    from ..image.pictures import read_bitmap
+    return _texels(sha, LARGEST_SIDE)
+
+
+@lru_cache(maxsize=64)
+def small_texels(sha: str, side: int = 256) -> NDArray[np.uint8]:
+    """The same made small: both sides are `side` texels at most. Of large bitmaps no more is read than that takes."""
+    path = tiles_path(_path(sha))
+    if path.exists():
+        return _texels(sha, side)
+    rgba = texels_of(sha)
+    while max(rgba.shape[:2]) > side:
+        rgba = halved(rgba)
+    return rgba
+
+
+def _path(sha: str) -> Path:
     from ..project.assets import default_store
 
     store = default_store()
     if not store.has(sha):
         raise Refusal("its bitmap is missing from the project")
-    rgba = read_bitmap(store.path(sha)).to_rgba()
-    while max(rgba.shape[:2]) > LARGEST_SIDE:
+    return store.path(sha)
+
+
+def _texels(sha: str, side: int) -> NDArray[np.uint8]:
+    from ..image.pictures import read_bitmap
+
+    path = _path(sha)
+    if tiles_path(path).exists():
+        rgba = level_of(TiledFile(tiles_path(path)), side)
+    else:
+        bitmap = read_bitmap(path)
+        if bitmap.width * bitmap.height > TILED_FROM:
+            rgba = level_of(keep_tiles(bitmap, path), side)
+        else:
+            rgba = bitmap.to_rgba()
+    while max(rgba.shape[:2]) > side:
         rgba = halved(rgba)
     rgba = np.ascontiguousarray(rgba)
     rgba.setflags(write=False)
