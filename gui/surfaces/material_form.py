@@ -58,7 +58,7 @@ class MaterialForm(MemberForm):
         with self.where(lambda material: bool(material.texture)):
             self.colour("key", "Colour key", "texels of this colour are transparent; empty: none", "none")
             self.choice("wrap", "Beyond it", wraps, "What lies beside one copy")
-        self.heading("Relief")
+        self.heading("Bump map")
         self._bitmap("bump", "Bitmap")
         with self.where(lambda material: bool(material.bump)):
             self.choice("bump_kind", "Holds", kinds, "What the bitmap tells")

@@ -1,0 +1,1 @@
+"""Meshes as data structures: lists of vertices, normals and faces, edges, and the winged edge with its walks."""
