@@ -1,0 +1,123 @@
+"""Polygons and lines cut off at the six sides of what is visible, in clip coordinates, before the division."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .stages import Floats, divided
+
+PLANES = np.array([(1, 0, 0, 1), (-1, 0, 0, 1), (0, 1, 0, 1), (0, -1, 0, 1), (0, 0, 1, 1), (0, 0, -1, 1)], float)
+"""Left, right, bottom, top, near, far: a point is inside where the product with each row is not negative."""
+NAMES = ("left", "right", "bottom", "top", "near", "far")
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Polygons:
+    """Polygons of up to k corners: `corners` (n, k, 4), of which the first `counts` (n,) are used; 0 where nothing is
+    left."""
+
+    corners: Floats
+    counts: NDArray[np.int64]
+
+    def polygon(self, number: int) -> Floats:
+        """(c, 4) the corners of one."""
+        return self.corners[number, : self.counts[number]]
+
+
+def clipped(triangles: Floats, planes: Floats = PLANES) -> Polygons:
+    """Triangles (n, 3, 4), or polygons (n, k, 4) of k corners each, in clip coordinates, cut off at planes (p, 4).
+
+    Sutherland and Hodgman (1974): each plane takes the corners inside it, and where a side crosses it the crossing; all
+    polygons at once.
+    """
+    corners = np.asarray(triangles, float)
+    counts = np.full(len(corners), corners.shape[1], np.int64)
+    for plane in planes:
+        corners, counts = _cut(corners, counts, plane)
+    return Polygons(corners, counts)
+
+
+def _cut(corners: Floats, counts: NDArray[np.int64], plane: Floats) -> tuple[Floats, NDArray[np.int64]]:
+    count, most = corners.shape[:2]
+    used = np.arange(most) < counts[:, None]
+    after = np.where(np.arange(1, most + 1) < counts[:, None], np.arange(1, most + 1), 0)
+    height = corners @ plane
+    if ((height >= 0.0) | ~used).all():
+        return corners, counts
+    beyond = np.take_along_axis(height, after, axis=1)
+    inside, inside_after = height >= 0.0, beyond >= 0.0
+    following = np.take_along_axis(corners, after[..., None], axis=1)
+    span = height - beyond
+    share = height / np.where(span != 0.0, span, 1.0)
+    crossing = corners + share[..., None] * (following - corners)
+    # Of each corner come itself, where it is inside, and the crossing of the side after it.
+    kept = np.stack((inside & used, (inside != inside_after) & used), axis=2).reshape(count, 2 * most)
+    found = np.stack((corners, crossing), axis=2).reshape(count, 2 * most, 4)
+    new_counts = kept.sum(axis=1)
+    place = np.cumsum(kept, axis=1) - 1
+    result = np.zeros((count, max(int(new_counts.max(initial=0)), 1), 4))
+    row, column = np.nonzero(kept)
+    result[row, place[row, column]] = found[row, column]
+    return result, new_counts
+
+
+def clipped_lines(lines: Floats, planes: Floats = PLANES) -> tuple[Floats, NDArray[np.bool_]]:
+    """Lines (n, 2, 4) in clip coordinates, cut off at planes; and (n,) whether anything of each is left.
+
+    By the parameters at which a line enters and leaves (Liang and Barsky 1984; in homogeneous coordinates Blinn and
+    Newell 1978).
+    """
+    ends = np.asarray(lines, float)
+    heights = ends @ planes.T  # (n, 2, p)
+    a, b = heights[:, 0], heights[:, 1]
+    span = np.where(a != b, a - b, 1.0)
+    at = a / span
+    enter = np.where((a < 0.0) & (b >= 0.0), at, 0.0).max(axis=1, initial=0.0)
+    leave = np.where((a >= 0.0) & (b < 0.0), at, 1.0).min(axis=1, initial=1.0)
+    visible = ~((a < 0.0) & (b < 0.0)).any(axis=1) & (enter <= leave)
+    way = ends[:, 1] - ends[:, 0]
+    return np.stack((ends[:, 0] + enter[:, None] * way, ends[:, 0] + leave[:, None] * way), axis=1), visible
+
+
+def front_facing(polygons: Polygons) -> NDArray[np.bool_]:
+    """(n,) whether polygons within what is visible run counter-clockwise on the screen."""
+    device = divided(np.where(polygons.corners[..., 3:] == 0.0, 1.0, polygons.corners))[..., :2]
+    most = device.shape[1]
+    used = np.arange(most) < polygons.counts[:, None]
+    after = np.where(np.arange(1, most + 1) < polygons.counts[:, None], np.arange(1, most + 1), 0)
+    following = np.take_along_axis(device, after[..., None], axis=1)
+    area = device[..., 0] * following[..., 1] - device[..., 1] * following[..., 0]
+    return np.where(used, area, 0.0).sum(axis=1) > 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Tally:
+    """Triangles at each stage: all, those facing away, those wholly outside and those cut by a side of what is visible,
+    and those that are drawn."""
+
+    triangles: int
+    away: int
+    outside: int
+    cut: int
+    drawn: int
+
+
+def tally(clip: Floats, triangles: NDArray[np.integer], cull: bool = True) -> tuple[Tally, Polygons]:
+    """What becomes of triangles (t, 3) over points with clip coordinates (n, 4), and the polygons that are drawn."""
+    corners = clip[np.asarray(triangles)]
+    heights = corners @ PLANES.T
+    within = (heights >= 0.0).all(axis=(1, 2))
+    polygons = clipped(corners)
+    left = polygons.counts >= 3
+    facing = front_facing(polygons)
+    drawn = left & (facing | (not cull))
+    return Tally(
+        len(corners),
+        int((left & ~facing).sum()),
+        int((~left).sum()),
+        int((left & ~within).sum()),
+        int(drawn.sum()),
+    ), Polygons(polygons.corners[drawn], polygons.counts[drawn])
