@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 
 from ...model.document.document import Section
@@ -15,13 +15,12 @@ from ...model.document.expression import Expression
 from ...model.editing.session import Session, State
 from ...model.operations.operations import OPERATIONS
 from ...model.operations.sections import moved_to, position
+from .drag_tool import DragTool
 from .entry import Entry
-from .tool import Tool
 
 if TYPE_CHECKING:
     from ...model.document.document import Document
     from ...render.handles.handle import Handle
-    from ...render.handles.handle_marks import HandleMarks
     from ...render.pick import Pick
     from ...render.viewer import Viewer
     from ..view.viewport import Viewport
@@ -35,7 +34,7 @@ SPREAD = 1.15  # the border's side over the extent of what is shown
 class _Drag:
     handle: Handle
     section: Section
-    document: Document
+    document: Document | None
     start: float
     """Where the pointer was: mm along the arrow, or degrees on the arc."""
     unit: str
@@ -47,22 +46,13 @@ class _Drag:
     """What is previewed."""
 
 
-class SectionTool(Tool):
-    """`chosen` tells the section whose handle is shown, "" for none; `said` carries words on a drag, "" at its end."""
+class SectionTool(DragTool[_Drag]):
+    """`chosen` tells the section whose handle is shown, "" for none."""
 
     chosen = Signal(str)
-    said = Signal(str)
-    refused = Signal(str)
 
     def __init__(self, session: Session, viewport: Viewport, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._session = session
-        self._refresh = viewport.refresh
-        viewport.installEventFilter(self)
-        self._viewer: Viewer | None = None
-        self._marks: HandleMarks | None = None
-        self._drag: _Drag | None = None
-        self._held = False
+        super().__init__(session, viewport, parent)
         self._take_face: Callable[[Pick], None] | None = None
         self.name = ""
         self.open = True
@@ -97,16 +87,12 @@ class SectionTool(Tool):
         if self._viewer is not None:
             sections = self._session.document.sections if self.open else ()
             self._viewer.set_sections(sections, self._session.previewing)
-            self._refresh()
+            self._viewport.refresh()
 
     def ask_face(self, take: Callable[[Pick], None]) -> None:
         """The next click on a face is handed to `take`; Escape or a click beside all faces ends that."""
         self._take_face = take
         self.said.emit("Click the face to cut at; Escape ends this")
-
-    @property
-    def dragging(self) -> bool:
-        return self._drag is not None
 
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.handle_marks import HandleMarks
@@ -116,13 +102,8 @@ class SectionTool(Tool):
         self._open_picture()
         self._show()
 
-    def closing(self) -> None:
-        self._viewer = self._marks = None
-
     def session_changed(self, before: State, after: State) -> None:
-        drag = self._drag
-        if drag is not None and after.document is not drag.document and after.document is not drag.shown:
-            self._end()  # somebody else went on: what was dragged is no more what it was
+        self._drop_outdated(after)
         if before.document is not after.document:
             self._open_picture()
         if before.document.sections is not after.document.sections:
@@ -167,28 +148,6 @@ class SectionTool(Tool):
         self._viewer.needs_render = True
         return True
 
-    def move(self, event: QMouseEvent) -> bool:
-        x, y = event.position().x(), event.position().y()
-        if self._held:
-            if self._drag is not None:
-                self._follow(self._drag, x, y, bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
-            return True
-        handle = None if event.buttons() else self._caught(x, y)
-        self._hover(handle)
-        return handle is not None
-
-    def release(self, event: QMouseEvent) -> bool:
-        if not self._held:
-            return False
-        if not event.buttons():
-            self._held = False
-            self._commit()
-        return True
-
-    def leave(self) -> None:
-        if not self._held:
-            self._hover(None)
-
     def key(self, event: QKeyEvent) -> bool:
         drag = self._drag
         if drag is not None:
@@ -212,25 +171,7 @@ class SectionTool(Tool):
             return False
         return True
 
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """What is typed in a drag is no shortcut."""
-        if self._drag is not None and event.type() == QEvent.Type.ShortcutOverride:
-            event.accept()
-            return True
-        return super().eventFilter(watched, event)
-
     # The plane.
-
-    def _caught(self, x: float, y: float) -> Handle | None:
-        if self._viewer is None or self._marks is None:
-            return None
-        return self._marks.caught(self._viewer.camera, self._viewer.size, x, y)
-
-    def _hover(self, handle: Handle | None) -> None:
-        name = None if handle is None else handle.name
-        if self._marks is not None and self._viewer is not None and name != self._marks.hover:
-            self._marks.hover = name
-            self._viewer.needs_render = True
 
     def _reached(self, handle: Handle, x: float, y: float) -> float | None:
         """Millimetres along the handle's arrow, or degrees on its arc."""
@@ -305,15 +246,6 @@ class SectionTool(Tool):
             self._session.cancel()
             self.refused.emit(str(refusal))
 
-    def _end(self) -> _Drag | None:
-        drag, self._drag = self._drag, None
-        if self._marks is not None and drag is not None:
-            self._marks.active = None
-            self.said.emit("")
-            if self._viewer is not None:
-                self._viewer.needs_render = True
-        return drag
-
     def _show(self) -> None:
         if self._viewer is None or self._marks is None:
             return
@@ -332,7 +264,7 @@ class SectionTool(Tool):
         if self._marks.handles or handles:
             self._marks.show(handles)
             self._viewer.needs_render = True
-            self._refresh()
+            self._viewport.refresh()
 
 
 def _plain(values: Any) -> tuple[float, ...]:

@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtCore import QObject, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent
 
 from ....model.document.errors import Refusal
 from ....model.operations.operations import OPERATIONS
 from ...panels.property_edit import sentence
-from ...tools.tool import Tool
+from ...tools.drag_tool import DragTool
 
 if TYPE_CHECKING:
     from ....model.document.document import Document
@@ -38,20 +38,11 @@ class Drag:
     shown: Document | None = None
 
 
-class HandleTool(Tool):
-    """`said` carries words on a drag, "" at its end. What is shown comes from `handles`, a drag from `begin`."""
-
-    said = Signal(str)
-    refused = Signal(str)
+class HandleTool(DragTool[Drag]):
+    """What is shown comes from `handles`, a drag from `begin`."""
 
     def __init__(self, session: Session, viewport: Viewport, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._session, self._viewport = session, viewport
-        viewport.installEventFilter(self)
-        self._viewer: Viewer | None = None
-        self._marks: HandleMarks | None = None
-        self._drag: Drag | None = None
-        self._held = False
+        super().__init__(session, viewport, parent)
         self.aside = False
 
     def set_aside(self, aside: bool) -> None:
@@ -72,22 +63,13 @@ class HandleTool(Tool):
 
         return HandleMarks()
 
-    @property
-    def dragging(self) -> bool:
-        return self._drag is not None
-
     def attached(self, viewer: Viewer) -> None:
         self._viewer, self._marks = viewer, self.make_marks()
         viewer.overlay.add(self._marks)
         self.show_handles()
 
-    def closing(self) -> None:
-        self._viewer = self._marks = None
-
     def session_changed(self, before: State, after: State) -> None:
-        drag = self._drag
-        if drag is not None and after.document is not drag.document and after.document is not drag.shown:
-            self._end()  # somebody else went on: what was dragged is no more what it was
+        self._drop_outdated(after)
         if before.document is not after.document or before.selection != after.selection:
             self.show_handles()
 
@@ -122,28 +104,6 @@ class HandleTool(Tool):
             self._viewer.needs_render = True
         return True
 
-    def move(self, event: QMouseEvent) -> bool:
-        x, y = event.position().x(), event.position().y()
-        if self._held:
-            if self._drag is not None:
-                self._follow(self._drag, x, y, bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier))
-            return True
-        handle = None if event.buttons() else self._caught(x, y)
-        self._hover(handle)
-        return handle is not None
-
-    def release(self, event: QMouseEvent) -> bool:
-        if not self._held:
-            return False
-        if not event.buttons():
-            self._held = False
-            self._commit()
-        return True
-
-    def leave(self) -> None:
-        if not self._held:
-            self._hover(None)
-
     def key(self, event: QKeyEvent) -> bool:
         if self._drag is None:
             return False
@@ -151,25 +111,6 @@ class HandleTool(Tool):
             self._end()
             self._session.cancel()
         return True
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Keys in a drag are no shortcuts."""
-        if self._drag is not None and event.type() == QEvent.Type.ShortcutOverride:
-            event.accept()
-            return True
-        return super().eventFilter(watched, event)
-
-    def _caught(self, x: float, y: float) -> Handle | None:
-        if self._viewer is None or self._marks is None:
-            return None
-        return self._marks.caught(self._viewer.camera, self._viewer.size, x, y)
-
-    def _hover(self, handle: Handle | None) -> None:
-        name = None if handle is None else handle.name
-        if self._marks is not None and self._viewer is not None and name != self._marks.hover:
-            self._marks.hover = name
-            self._viewer.needs_render = True
-            self._viewport.refresh()
 
     def _follow(self, drag: Drag, x: float, y: float, fine: bool) -> None:
         found = drag.follow(x, y, fine)
@@ -195,12 +136,3 @@ class HandleTool(Tool):
         except Refusal as refusal:
             self._session.cancel()
             self.refused.emit(sentence(refusal))
-
-    def _end(self) -> Drag | None:
-        drag, self._drag = self._drag, None
-        if drag is not None and self._marks is not None:
-            self._marks.active = None
-            self.said.emit("")
-            if self._viewer is not None:
-                self._viewer.needs_render = True
-        return drag
