@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt, QTimer, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, Qt, QTimer, Signal
 from PySide6.QtGui import (
     QColor,
     QImage,
@@ -24,15 +24,14 @@ from ...model.surface.unwrapped import triangles_at
 from ..bitmap.pixel_view import qimage
 from ..theme import colours_now
 from .unwrapping import Sheet
+from .uv_layer import AT_ONCE, layer_of
 
 ZOOM = 1.2
 NEAREST, FARTHEST = 1e5, 1.0  # logical pixels for one copy of the bitmap
 COPIES = 8  # on each side that are drawn at most
 FAINT = 0.35  # of the copies around the bitmap itself
 SLACK = 4.0  # pixels the pointer may move in a click
-AT_ONCE = 4000  # triangles that are drawn anew with every change of the view
 QUIET = 60  # milliseconds after which more are
-MIRRORED, PLAIN, FLAT = "#d9822b", "#2f6fca", "#b3261e"
 
 
 class UvView(QWidget):
@@ -115,46 +114,10 @@ class UvView(QWidget):
             self._drop_layer()
 
     def _draw_layer(self) -> None:
-        ratio = self.devicePixelRatioF()
-        size = QSize(round(self.width() * ratio), round(self.height() * ratio))
-        layer = QImage(size, QImage.Format.Format_ARGB32_Premultiplied)
-        layer.setDevicePixelRatio(ratio)
-        layer.fill(Qt.GlobalColor.transparent)
-        sheet = self._sheet
-        if sheet is not None and len(sheet.coordinates):
-            painter = QPainter(layer)
-            painter.setRenderHint(QPainter.RenderHint.Antialiasing, len(sheet.coordinates) <= AT_ONCE)
-            corners = self._pixels(sheet.coordinates)
-            low, high = corners.min(axis=1), corners.max(axis=1)
-            seen = ((high >= 0.0) & (low <= (self.width(), self.height()))).all(axis=1)
-            for rows, colour in (
-                (~sheet.facts.mirrored & ~sheet.facts.flat, PLAIN),
-                (sheet.facts.mirrored, MIRRORED),
-                (sheet.facts.flat, FLAT),
-            ):
-                self._draw_triangles(painter, corners[rows & seen], colour, thick=colour == FLAT)
-            painter.end()
-        self._layer, self._layer_view = layer, (self._scale, QPointF(self._origin))
+        corners = np.zeros((0, 3, 2)) if self._sheet is None else self._pixels(self._sheet.coordinates)
+        self._layer = layer_of(self._sheet, corners, self.size(), self.devicePixelRatioF(), self.filled)
+        self._layer_view = (self._scale, QPointF(self._origin))
         self.update()
-
-    def _draw_triangles(self, painter: QPainter, corners: NDArray[np.float64], colour: str, thick: bool) -> None:
-        if not len(corners):
-            return
-        tint = QColor(colour)
-        if self.filled:
-            tint.setAlpha(70)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(tint)
-            for a, b, c in corners.tolist():
-                painter.drawConvexPolygon(QPolygonF([QPointF(*a), QPointF(*b), QPointF(*c)]))
-        tint.setAlpha(230)
-        painter.setPen(QPen(tint, 2.0 if thick else 1.0))
-        lines = corners[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 4)
-        keys = np.round(lines.reshape(-1, 2, 2) * 4.0).astype(np.int64)
-        swapped = (keys[:, 0, 0] > keys[:, 1, 0]) | ((keys[:, 0, 0] == keys[:, 1, 0]) & (keys[:, 0, 1] > keys[:, 1, 1]))
-        keys[swapped] = keys[swapped][:, ::-1]
-        _, first = np.unique(keys.reshape(-1, 4), axis=0, return_index=True)
-        painter.drawLines([QLineF(*line) for line in lines[first].tolist()])
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QTimer
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QCheckBox, QComboBox, QLabel, QMainWindow, QStackedWidget
 
@@ -16,7 +16,8 @@ from ..icons import icon
 from ..panels.property_edit import sentence
 from ..surfaces.in_force import mapping_changes, mapping_in_force
 from .unwrapping import Sheet, sheets_of, words_of
-from .uv_view import MIRRORED, PLAIN, UvView
+from .uv_layer import MIRRORED, PLAIN
+from .uv_view import UvView
 
 if TYPE_CHECKING:
     from ...model.document.document import Document
@@ -25,6 +26,8 @@ if TYPE_CHECKING:
 
 HINT = "Click a triangle to select its node; Shift+drag shifts the bitmap, Ctrl+wheel scales it; wheel zooms, F fits."
 NOTHING = "There are no triangles to show.\nAdd a solid, and give it a material with a texture in the Surfaces panel."
+MANY, QUIET = 20_000, 150
+"""Triangles that take time to unwrap, and milliseconds without a change after which that is done."""
 SHOWN = 8000  # milliseconds that a refusal stays
 
 
@@ -86,15 +89,23 @@ class UvWindow(QMainWindow):
         facts_bar.setMovable(False)
         self.insertToolBarBreak(facts_bar)
         facts_bar.addWidget(self.facts)
+        self._soon = QTimer(self)
+        self._soon.setSingleShot(True)
+        self._soon.timeout.connect(self._follow)
         self._unlisten = self._session.on_change(self._changed)
-        window.viewport.displayed.connect(lambda _: self._follow())
+        window.viewport.displayed.connect(lambda _: self._follow_soon())
         self.resize(760, 700)
 
     # What is shown.
 
     def _changed(self, before: State, after: State) -> None:
         if before.selection != after.selection:
-            self._follow()
+            self._follow_soon()
+
+    def _follow_soon(self) -> None:
+        """Once for many changes; where there are many triangles, when they have come to rest."""
+        many = sum(len(sheet.coordinates) for sheet in self._sheets) > MANY
+        self._soon.start(QUIET if many else 0)
 
     def _follow(self) -> None:
         viewer = self._window.viewport.viewer
