@@ -40,3 +40,18 @@ def test_turning_segments_and_taking_a_shading(make_window, qtbot):
     window.show_model()  # made anew
     qtbot.waitUntil(lambda: window.board.isVisible() and len(window.board.pictures) == 4, timeout=20000)
     window.close()
+
+
+def test_without_a_solid_there_is_the_sphere_alone(make_window, qtbot):
+    driver = make_window(document_of(sphere(10)))
+    driver.window.actions_.run("compare_shadings")
+    window = driver.window.side_windows.of(ComparisonWindow)
+    window.model.setCurrentIndex(1)
+    window.model.activated.emit(1)
+    assert not window.segments.isEnabled()
+    driver.session.select([driver.document.solids[0].id])
+    driver.session.do("delete", [driver.document.solids[0].id])
+    driver.settle()
+    assert window.model.currentIndex() == 0 and not window.model.model().item(1).isEnabled()
+    assert window.segments.isEnabled()
+    window.close()

@@ -237,7 +237,8 @@ class BitmapWindow(QMainWindow):
         return action
 
     def _run(self, words: str, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
-        self._background.run(words, work, done, lambda refusal: self._refuse("This", refusal))
+        name = self.opened.name if self.opened is not None else ""
+        self._background.run(words, work, done, lambda refusal: self._refuse(name, refusal))
 
     def _busy(self, words: str) -> None:
         if words:

@@ -8,7 +8,7 @@ from math import cos, radians, sin
 from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QCloseEvent, QShowEvent
+from PySide6.QtGui import QCloseEvent, QShowEvent, QStandardItemModel
 from PySide6.QtWidgets import (
     QComboBox,
     QGridLayout,
@@ -60,7 +60,7 @@ class ComparisonWindow(QMainWindow):
         self._lay_out()
         window.theme.changed.connect(self._theme)
         self._unlisten = self._session.on_change(lambda before, after: self._document_changed())
-        window.evaluation.shown.connect(self._show_again)
+        window.evaluation.shown.connect(self._shown)
         self.resize(1080, 640)
 
     # What is shown.
@@ -68,6 +68,7 @@ class ComparisonWindow(QMainWindow):
     def show_model(self) -> None:
         """Of the selected solid where there is one, else the sphere."""
         self._fill_materials()
+        self._offer_solid()
         self.model.setCurrentIndex(1 if self._solid() is not None and self._session.selection else 0)
         self.show()
         self.raise_()
@@ -267,9 +268,24 @@ class ComparisonWindow(QMainWindow):
         self.material.addItems(["Its own", *(material.name for material in self._session.document.materials)])
         self.material.setCurrentIndex(max(self.material.findText(place), 0))
 
+    def _offer_solid(self) -> None:
+        """The solid can be chosen where there is one."""
+        items = self.model.model()
+        assert isinstance(items, QStandardItemModel)
+        there = self._solid() is not None
+        items.item(1).setEnabled(there)
+        items.item(1).setToolTip("" if there else "The document shows no solid")
+        if not there and self.model.currentIndex() == 1:
+            self.model.setCurrentIndex(0)
+            self._show_controls()
+
     def _document_changed(self) -> None:
         if self.isVisible():
             self._fill_materials()
+        self._show_again()
+
+    def _shown(self, *_: object) -> None:
+        self._offer_solid()
         self._show_again()
 
     def _show_again(self, *_: object) -> None:
