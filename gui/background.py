@@ -47,10 +47,10 @@ class Background(QObject):
         self._pool.submit(job)
 
     def close(self) -> None:
-        """Wait for what is under way; its answers are dropped."""
+        """Wait for what is under way; its answers, and what has not begun, are dropped."""
         self._finished.disconnect()
         if self._pool is not None:
-            self._pool.shutdown()
+            self._pool.shutdown(cancel_futures=True)
 
     def _deliver(self, done: Callable[[Any], None], refused: Callable[[Refusal], None], outcome: Any) -> None:
         self._open -= 1

@@ -10,8 +10,9 @@ from solidtree.model.image.inspection import (
     byte_lines,
     channel,
     channels_of,
-    histogram,
+    lost_words,
     memory_rows,
+    number_at,
     pixel_words,
     place_of,
 )
@@ -41,6 +42,8 @@ def test_a_pixel_stands_where_it_is_said_to(bits):
     bitmap = of_samples(samples, bits, masks=masks)
     stored = bitmap.pixels.tobytes()
     for x, y in ((0, 0), (7, 3), (12, 4)):
+        if bits != 24:
+            assert number_at(bitmap, x, y) == samples[y, x]
         byte, bit = place_of(bitmap, x, y)
         if bits < 8:
             assert stored[byte] >> (8 - bits - bit) & (2**bits - 1) == samples[y, x]
@@ -68,7 +71,6 @@ def test_channels_and_bit_planes():
     assert channels_of(four)[-4:] == ["bit 3", "bit 2", "bit 1", "bit 0"]
     assert channel(four, four.to_rgba(), "bit 0")[0, :, 0].tolist() == [255, 0]
     assert channel(four, four.to_rgba(), "bit 3")[0, :, 0].tolist() == [0, 255]
-    assert histogram(rgba)[0, 60] == 1 and histogram(rgba).sum() == 6
 
 
 def test_bytes_are_those_of_the_file():
@@ -95,3 +97,11 @@ def test_accesses_are_counted_and_tiles_spare_bytes():
     found = measured(np.zeros((300, 200, 3), np.uint8), 32, 50)
     assert [each.name for each in found] == ["window of 50 × 50", "column", "row"]
     assert all(each.rows_time > 0 and each.tiles_time > 0 for each in found)
+
+
+def test_what_a_file_does_not_keep_is_told():
+    palette = np.array([[0, 0, 0, 255], [9, 9, 9, 255]], np.uint8)
+    keyed = of_samples(np.array([[0, 1]], np.uint8), 1, palette, colour_key=1)
+    assert "colour key" in lost_words(keyed, ".bmp") and "palette" in lost_words(keyed, ".png")
+    assert "transparency" in lost_words(keyed, ".jpg")
+    assert lost_words(of_samples(np.zeros((2, 2, 3), np.uint8), 24), ".png") == ""

@@ -171,3 +171,41 @@ def test_a_materials_bitmap_opens_from_its_row(make_window, tmp_path, qtbot):
     window = driver.window.side_windows.of(BitmapWindow)
     qtbot.waitUntil(lambda: window.opened is not None, timeout=10000)
     assert window.opened.bitmap.width == 5 and "wood: texture" in window.windowTitle()
+
+
+def test_a_click_holds_the_cursor_for_the_tool_bar(inspector, tmp_path, qtbot):
+    window, open_ = inspector
+    pixels = np.random.default_rng(4).integers(0, 256, (4, 4, 3)).astype(np.uint8)
+    Image.fromarray(pixels).save(tmp_path / "a.png")
+    open_(tmp_path / "a.png")
+    view = window.view
+    at = (view._origin + QPointF(2.5, 1.5) * view.scale).toPoint()
+    qtbot.mouseClick(view, Qt.MouseButton.LeftButton, pos=at)
+    qtbot.mouseMove(view, (view._origin + QPointF(0.5, 0.5) * view.scale).toPoint())
+    assert view.cursor_at == (2, 1)
+    window.key.trigger()
+    assert window.opened.bitmap.colour_key == tuple(pixels[1, 2].tolist())
+    window.save(window.opened.bitmap, tmp_path / "b.bmp")
+    qtbot.waitUntil(lambda: "is written" in window.statusBar().currentMessage(), timeout=10000)
+    assert "without the colour key" in window.statusBar().currentMessage()
+
+
+def test_pages_know_the_cursor_and_what_they_show_when_they_come_back(inspector, tmp_path, qtbot):
+    window, open_ = inspector
+    Image.fromarray(np.dstack([np.arange(64, dtype=np.uint8).reshape(8, 8) * k for k in (1, 2, 3)])).save(
+        tmp_path / "a.png"
+    )
+    open_(tmp_path / "a.png")
+    tab(window, window.channels)
+    window.channels.names.setCurrentRow(1)
+    tab(window, window.header)
+    shown = []
+    window.channels.shown.connect(shown.append)
+    tab(window, window.channels)
+    assert shown and (shown[-1][..., 0] == shown[-1][..., 1]).all()
+    window.view.point_at(5, 3)
+    window.tiles.of_picture.setChecked(True)
+    tab(window, window.tiles)
+    assert "Column x = 5 of row y = 3" in window.tiles.formulas.text()
+    window.tiles.of_picture.setChecked(False)
+    assert window.tiles.tile.value() == 2 and window.tiles.rows.value() == 3

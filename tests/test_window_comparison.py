@@ -55,3 +55,15 @@ def test_without_a_solid_there_is_the_sphere_alone(make_window, qtbot):
     assert window.model.currentIndex() == 0 and not window.model.model().item(1).isEnabled()
     assert window.segments.isEnabled()
     window.close()
+
+
+def test_a_materials_numbers_stand_at_the_sliders_and_in_words(make_window, qtbot):
+    dull = material("dull", specular=0, shininess=9)
+    driver = make_window(document_of(sphere(10, segments=12).dressed(dull)))
+    driver.window.actions_.run("compare_shadings")
+    window = driver.window.side_windows.of(ComparisonWindow)
+    window.material.setCurrentIndex(1)
+    window.material.activated.emit(1)
+    assert window.specular.number == 0 and window._numbers[window.specular].text() == "0"
+    assert window._numbers[window.shininess].text() == "9"
+    window.close()

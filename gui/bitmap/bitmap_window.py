@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
 )
 
 from ...model.document.errors import Refusal
-from ...model.image.inspection import pixel_words
+from ...model.image.inspection import lost_words, pixel_words
 from ..background import Background
 from ..icons import icon
 from ..panels.property_edit import sentence
@@ -144,10 +144,10 @@ class BitmapWindow(QMainWindow):
             return
         dialog = QFileDialog(self, "Save the bitmap as", self._window.settings.folder)
         dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-        dialog.setNameFilters(
-            [f"{ending[1:].upper()} (*{ending})" for ending in (".bmp", ".png", ".tif", ".webp", ".jpg")]
-        )
+        endings = {f"{ending[1:].upper()} (*{ending})": ending[1:] for ending in WRITTEN}
+        dialog.setNameFilters([*endings])
         dialog.setDefaultSuffix("bmp")
+        dialog.filterSelected.connect(lambda words: dialog.setDefaultSuffix(endings[words]))
         dialog.selectFile(Path(self.opened.name).stem)
         dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         dialog.fileSelected.connect(lambda path: self.save(found, Path(path)))
@@ -157,10 +157,12 @@ class BitmapWindow(QMainWindow):
         """Write a bitmap in the format of the path's ending."""
         from ...model.image.pictures import save_bitmap
 
+        lost = lost_words(bitmap, path.suffix.lower())
+        told = f"{path.name} is written" + (f", without {lost}" if lost else "")
         self._background.run(
             f"Writing {path.name}",
             lambda: save_bitmap(bitmap, path),
-            lambda _: self.statusBar().showMessage(f"{path.name} is written", SHOWN),
+            lambda _: self.statusBar().showMessage(told, SHOWN),
             lambda refusal: self._refuse(path.name, refusal),
         )
 
@@ -190,9 +192,8 @@ class BitmapWindow(QMainWindow):
         column.addWidget(words)
         column.addWidget(button, 0, Qt.AlignmentFlag.AlignCenter)
         column.addStretch(1)
-        self.key = self._action(
-            bar, "Colour key", "eye", "What has the colour of the cursor's pixel shows nothing (K)", self._switch_key
-        )
+        tip = "What has the colour of the pixel that was clicked shows nothing (K)"
+        self.key = self._action(bar, "Colour key", "eye", tip, self._switch_key)
         self.key.setCheckable(True)
         self.key.setShortcut("K")
         self.key.setEnabled(False)
@@ -236,9 +237,16 @@ class BitmapWindow(QMainWindow):
         bar.addAction(action)
         return action
 
-    def _run(self, words: str, work: Callable[[], Any], done: Callable[[Any], None]) -> None:
+    def _run(
+        self, words: str, work: Callable[[], Any], done: Callable[[Any], None], failed: Callable[[], None]
+    ) -> None:
         name = self.opened.name if self.opened is not None else ""
-        self._background.run(words, work, done, lambda refusal: self._refuse(name, refusal))
+
+        def refused(refusal: Refusal) -> None:
+            failed()
+            self._refuse(name, refusal)
+
+        self._background.run(words, work, done, refused)
 
     def _busy(self, words: str) -> None:
         if words:
@@ -251,13 +259,13 @@ class BitmapWindow(QMainWindow):
         page = self.tabs.currentWidget()
         if self.opened is None:
             return
-        if isinstance(page, TrialPage):
-            page.entered()
-        elif page is not self.channels:
-            self.view.show_pixels(self.opened.rgba)
         self.view.marks = []
-        if page is self.tiles:
-            self.tiles.entered()
+        if not isinstance(page, ChannelsPage):
+            self.view.show_pixels(self.opened.rgba)  # a trial's picture follows when it is there
+        if isinstance(page, TrialPage | ChannelsPage | TilesPage):
+            page.entered()
+        if isinstance(page, BytesPage | PalettePage | TilesPage) and self.view.cursor_at is not None:
+            page.point(*self.view.cursor_at)
         self.view.update()
 
     def _pointed(self, x: int, y: int) -> None:
@@ -285,8 +293,8 @@ class BitmapWindow(QMainWindow):
 
     def end(self) -> None:
         """Before the main window goes."""
-        self._background.close()
         self.close()
+        self._background.close()
 
 
 def open_inspector(window: MainWindow, sha: str = "", name: str = "") -> BitmapWindow:

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from ...model.image.bitmap import Bitmap
     from ...model.image.depth import Comparison
 
-Run = Callable[[str, Callable[[], Any], Callable[[Any], None]], None]
-"""Words, work for a thread, and what takes its result."""
+Run = Callable[[str, Callable[[], Any], Callable[[Any], None], Callable[[], None]], None]
+"""Words, work for a thread, what takes its result, and what is done where it is refused."""
 DEPTHS = (1, 2, 4, 8, 16, 24, 32)
 DITHERS = (("None", "none"), ("Floyd\u2013Steinberg", "floyd-steinberg"), ("Ordered (Bayer)", "bayer"))
 QUALITY = 80
@@ -63,6 +63,11 @@ class ChannelsPage(QWidget):
         self.names.setCurrentRow(0)
         self._opened = opened
 
+    def entered(self) -> None:
+        """The page has come to the front."""
+        item = self.names.currentItem()
+        self._choose(item.text() if item is not None else "")
+
     def _choose(self, name: str) -> None:
         if self._opened is not None and name:
             self.shown.emit(channel(self._opened.bitmap, self._opened.rgba, name.lower()))
@@ -80,7 +85,7 @@ class TrialPage(QWidget):
         super().__init__(parent)
         self._run = run
         self._opened: OpenBitmap | None = None
-        self._wanted = 0
+        self._working = self._again = False
         self.result: Bitmap | None = None
         self.comparison: Comparison | None = None
         self.facts = table(("", "", ""), self)
@@ -114,18 +119,25 @@ class TrialPage(QWidget):
         raise RuntimeError("sub-classes say what is to be done")
 
     def _begin(self) -> None:
+        """One at a time; of the values that come meanwhile the last ones count."""
         opened = self._opened
-        if opened is None:
+        if opened is None or self._working:
+            self._again = opened is not None
             return
-        self._wanted += 1
-        wanted = self._wanted
+        self._working, self._again = True, False
 
         def done(result: tuple[Any, ...]) -> None:
-            if wanted == self._wanted and opened is self._opened:
+            ended()
+            if opened is self._opened and not self._again:
                 self._take(*result)
                 self._show()
 
-        self._run(f"Converting {opened.name}", self._work(opened), done)
+        def ended() -> None:
+            self._working = False
+            if self._again:
+                self._begin()
+
+        self._run(f"Converting {opened.name}", self._work(opened), done, ended)
 
     def _take(self, *result: Any) -> None:
         raise RuntimeError("sub-classes keep what has been done")
@@ -154,15 +166,17 @@ class DepthPage(TrialPage):
         super().__init__(run, parent)
         self.bits = QComboBox(self)
         self.bits.setObjectName("depth")
+        self.bits.setAccessibleName("Depth")
         self.bits.addItems([f"{bits} bits" if bits > 1 else "1 bit" for bits in DEPTHS])
         self.bits.setCurrentIndex(2)
         self.dither = QComboBox(self)
         self.dither.setObjectName("dither")
+        self.dither.setAccessibleName("Dithering")
         self.dither.addItems([title for title, _ in DITHERS])
         self.grey = QCheckBox("Even steps of grey", self)
         self.grey.setToolTip("Up to 8 bits: greys instead of the palette that suits the picture best (median cut)")
         for box in (self.bits, self.dither):
-            box.activated.connect(self.change)
+            box.activated.connect(self._chosen)
         self.grey.toggled.connect(self.change)
         button = QPushButton("Save as \u2026", self)
         button.setToolTip("Write the bitmap of this depth: BMP keeps every depth, PNG the colours")
@@ -179,6 +193,12 @@ class DepthPage(TrialPage):
         column.setContentsMargins(8, 8, 8, 8)
         column.addLayout(grid)
         column.addWidget(self.facts, 1)
+
+    def _chosen(self) -> None:
+        bits = DEPTHS[self.bits.currentIndex()]
+        self.dither.setEnabled(bits <= 16)
+        self.grey.setEnabled(1 < bits <= 8)
+        self.change()
 
     def _work(self, opened: OpenBitmap) -> Callable[[], Any]:
         bits, dither, grey = DEPTHS[self.bits.currentIndex()], DITHERS[self.dither.currentIndex()][1], self.grey
@@ -201,6 +221,7 @@ class DepthPage(TrialPage):
                 ("Bits a pixel", str(before.bits), str(made.bits)),
                 ("Stored", f"{before.stored_size:,} bytes", f"{made.stored_size:,} bytes"),
                 ("Palette", _palette(before), _palette(made)),
+                ("Alpha", _yes(before.alpha), "lost" if before.alpha and not made.alpha else _yes(made.alpha)),
                 ("Farthest off", "", f"{comparison.largest} levels"),
                 ("PSNR", "", psnr_words(comparison.psnr)),
             ],
@@ -270,6 +291,10 @@ class CompressionPage(TrialPage):
 
 def psnr_words(psnr: float) -> str:
     return "without loss" if np.isinf(psnr) else f"{psnr:.1f} dB"
+
+
+def _yes(there: bool) -> str:
+    return "yes" if there else "no"
 
 
 def _palette(bitmap: Bitmap) -> str:

@@ -19,7 +19,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ...model.image.inspection import PER_LINE, byte_lines, memory_rows, place_of
+from ...model.image.inspection import PER_LINE, byte_lines, memory_rows, number_at, place_of
 from ...model.image.report import header_facts
 from ..theme import colours_now
 from .open_bitmap import OpenBitmap
@@ -36,6 +36,7 @@ def table(columns: Sequence[str], parent: QWidget) -> QTableWidget:
     made.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
     made.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
     made.setShowGrid(False)
+    made.setTabKeyNavigation(False)  # Tab goes on to what is next
     made.setWordWrap(True)
     head = made.horizontalHeader()
     head.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
@@ -182,7 +183,7 @@ class PalettePage(QWidget):
 
     def point(self, x: int, y: int) -> None:
         if self._opened is not None and self._opened.bitmap.palette is not None and self.isVisible():
-            self.swatches.mark(int(self._opened.bitmap.samples()[y, x]))
+            self.swatches.mark(number_at(self._opened.bitmap, x, y))
 
     def _choose(self, index: int) -> None:
         if self._opened is None or self._opened.bitmap.palette is None:

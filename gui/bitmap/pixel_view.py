@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
+from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, Signal
 from PySide6.QtGui import QColor, QImage, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
@@ -12,6 +12,8 @@ from ..theme import colours_now
 
 ZOOM = 1.25
 NEAREST, FARTHEST = 64.0, 1 / 64  # logical pixels a texel
+MARGIN = 8.0  # pixels around the cursor when it is brought into the view
+SLACK = 3.0  # that the pointer may move in a click
 GRID = 8.0  # from this size on pixels have lines between them
 SQUARE = 8  # of the ground behind what is transparent
 LIGHT_SQUARE, DARK_SQUARE = "#cdcdcd", "#a5a5a5"
@@ -37,12 +39,16 @@ class PixelView(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.cursor_at: tuple[int, int] | None = None
+        self.pinned = False
+        """Whether a click holds the cursor, so that it does not follow the pointer."""
         self.marks: list[QRectF] = []
         """Parts of the picture, in pixels, that are outlined."""
         self._image: QImage | None = None
         self._scale, self._origin = 1.0, QPointF()
         self._fitted = True
+        self._press = QPointF()
         self._last: QPointF | None = None
+        self.setToolTip("A click holds the cursor at a pixel, another one there lets it go; drag to pan, wheel to zoom")
 
     @property
     def scale(self) -> float:
@@ -58,7 +64,7 @@ class PixelView(QWidget):
         before = self.size_in_pixels
         self._image = None if pixels is None else qimage(pixels)
         if self.size_in_pixels != before:
-            self.cursor_at, self.marks = None, []
+            self.cursor_at, self.marks, self.pinned = None, [], False
             self.fit()
         self.update()
 
@@ -68,13 +74,13 @@ class PixelView(QWidget):
         if self._image is None or not self.width() or not self.height():
             return
         scale = min((self.width() - 16) / self._image.width(), (self.height() - 16) / self._image.height())
-        self._set_scale(float(int(scale)) if scale > 1.0 else max(scale, FARTHEST))
+        self._scale = min(float(int(scale)), NEAREST) if scale > 1.0 else max(scale, FARTHEST)
         self.centre()
 
     def plain_size(self) -> None:
         """One texel a pixel of the screen."""
         self._fitted = False
-        self._set_scale(1.0 / self.devicePixelRatioF())
+        self._scale = 1.0 / self.devicePixelRatioF()
         self.centre()
 
     def centre(self) -> None:
@@ -87,12 +93,12 @@ class PixelView(QWidget):
         place = about if about is not None else QPointF(self.width() / 2, self.height() / 2)
         texel = (place - self._origin) / self._scale
         self._fitted = False
-        self._set_scale(min(max(self._scale * factor, FARTHEST), NEAREST))
+        self._scale = min(max(self._scale * factor, FARTHEST), NEAREST)
         self._origin = place - texel * self._scale
         self.update()
 
     def point_at(self, x: int, y: int) -> None:
-        """Bring the cursor to a pixel, and the pixel into the view."""
+        """Bring the cursor to a pixel."""
         size = self.size_in_pixels
         if size is None:
             return
@@ -102,8 +108,17 @@ class PixelView(QWidget):
             self.pointed.emit(x, y)
         self.update()
 
-    def _set_scale(self, scale: float) -> None:
-        self._scale = scale
+    def _bring_into_view(self) -> None:
+        """Shift the picture so that the cursor is seen."""
+        if self.cursor_at is None:
+            return
+        frame = self._on_screen(QRectF(*self.cursor_at, 1, 1))
+        right = min(self.width() - MARGIN - frame.right(), 0.0) + max(MARGIN - frame.left(), 0.0)
+        down = min(self.height() - MARGIN - frame.bottom(), 0.0) + max(MARGIN - frame.top(), 0.0)
+        if right or down:
+            self._origin += QPointF(right, down)
+            self._fitted = False
+            self.update()
 
     def _pixel(self, place: QPointF) -> tuple[int, int] | None:
         size = self.size_in_pixels
@@ -127,6 +142,7 @@ class PixelView(QWidget):
         if self._image.hasAlphaChannel():
             _squares(painter, shown.intersected(QRectF(self.rect())))
         painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, self._scale < 1.0)
+        shown.setSize(shown.size().expandedTo(QSizeF(1.0, 1.0)))  # a strip is seen
         painter.drawImage(shown, self._image, whole)
         if self._scale >= GRID:
             self._draw_grid(painter, whole)
@@ -161,7 +177,7 @@ class PixelView(QWidget):
         painter.drawRect(frame)
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        self._last = event.position()
+        self._press = self._last = event.position()
         self.setCursor(Qt.CursorShape.ClosedHandCursor)
 
     def mouseMoveEvent(self, event: QMouseEvent) -> None:
@@ -172,12 +188,16 @@ class PixelView(QWidget):
             self.update()
             return
         pixel = self._pixel(event.position())
-        if pixel is not None:
+        if pixel is not None and not self.pinned:
             self.point_at(*pixel)
 
     def mouseReleaseEvent(self, event: QMouseEvent) -> None:
         self._last = None
         self.unsetCursor()
+        pixel = self._pixel(event.position())
+        if pixel is not None and (event.position() - self._press).manhattanLength() <= SLACK:
+            self.pinned = not (self.pinned and pixel == self.cursor_at)
+            self.point_at(*pixel)
 
     def wheelEvent(self, event: QWheelEvent) -> None:
         self.zoom(ZOOM ** (event.angleDelta().y() / 120.0), event.position())
@@ -190,6 +210,7 @@ class PixelView(QWidget):
             x, y = self.cursor_at or (0, 0)
             far = 10 if event.modifiers() & Qt.KeyboardModifier.ShiftModifier else 1
             self.point_at(x + far * ways[key][0], y + far * ways[key][1])
+            self._bring_into_view()
         elif key in (Qt.Key.Key_Plus, Qt.Key.Key_Equal):
             self.zoom(ZOOM)
         elif key == Qt.Key.Key_Minus:

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
-
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt, Signal
 from PySide6.QtGui import QColor, QFont, QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpinBox, QVBoxLayout, QWidget
@@ -12,6 +9,7 @@ from PySide6.QtWidgets import QCheckBox, QHBoxLayout, QLabel, QPushButton, QSpin
 from ...model.image.access import Access, counted, measured
 from ...model.image.tiles import tile_and_place, tiled_index
 from ..theme import colours_now
+from .change_pages import Run
 from .facts_pages import fill, table
 from .open_bitmap import OpenBitmap
 
@@ -20,18 +18,16 @@ BOOK = (3, 3, 2)  # rows, columns and tile at first
 
 
 class TilesPage(QWidget):
-    """`marked` carries the parts of the open picture, in pixels, that are to be outlined: a tile, and its row of
-    tiles."""
+    """`marked` carries the parts of the open picture, in pixels, that are to be outlined: the tile at the cursor."""
 
     marked = Signal(object)
 
-    def __init__(
-        self, run: Callable[[str, Callable[[], Any], Callable[[Any], None]], None], parent: QWidget | None = None
-    ) -> None:
+    def __init__(self, run: Run, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._run = run
         self._opened: OpenBitmap | None = None
         self._at = (0, 0)
+        self._of_picture, self._other_tile = False, 64  # n of the picture, where the matrix is shown, and of that
         self.rows = self._number("rows", "p, rows", BOOK[0])
         self.columns = self._number("columns", "q, columns", BOOK[1])
         self.tile = self._number("tile", "n, side of a tile", BOOK[2])
@@ -49,7 +45,8 @@ class TilesPage(QWidget):
         self.costs = table(("Read", "Row by row", "In tiles", "Time"), self)
         self.costs.setObjectName("costs")
         self.measure = QPushButton("Measure", self)
-        self.measure.setToolTip("Write the open picture row by row and in tiles to two temporary files, and read both")
+        self.measure.setToolTip("Write the open picture row by row and in tiles to two temporary files, and read "
+                                "both, which lie in the system's memory then")  # fmt: skip
         self.measure.clicked.connect(self._measure)
         line = QHBoxLayout()
         for words, box in (("p", self.rows), ("q", self.columns), ("n", self.tile)):
@@ -106,9 +103,12 @@ class TilesPage(QWidget):
         picture = self.of_picture.isChecked() and opened is not None
         for box in (self.rows, self.columns):
             box.setEnabled(not picture)
+        self.tile.setMaximum(4096)
+        if picture != self._of_picture:
+            self._of_picture = picture
+            kept, self._other_tile = self._other_tile, self.tile.value()
+            self.tile.setValue(kept)
         self.tile.setMaximum(4096 if picture else LARGEST)
-        if picture and self.tile.value() < 8:
-            self.tile.setValue(64)
         self.matrix.setVisible(not picture)
         self.costs.setVisible(picture)
         self.costs_title.setVisible(picture)
@@ -149,14 +149,15 @@ class TilesPage(QWidget):
             if opened is self._opened and n == self.tile.value():
                 self._show_costs(found)
 
-        self._run(f"Measuring tiles of {opened.name}", lambda: measured(opened.rgba, n), done)
+        self._run(f"Measuring tiles of {opened.name}", lambda: measured(opened.rgba, n), done,
+                  lambda: self.measure.setEnabled(True))  # fmt: skip
 
 
 def _times(access: Access) -> str:
     if access.rows_time is None or access.tiles_time is None:
         return "not measured"
     ratio = access.rows_time / access.tiles_time
-    words = f"{ratio:.1f} times faster" if ratio >= 1.0 else f"{1.0 / ratio:.1f} times slower"
+    words = f"tiles {ratio:.1f} times faster" if ratio >= 1.0 else f"tiles {1.0 / ratio:.1f} times slower"
     return f"{1e3 * access.rows_time:.2f} and {1e3 * access.tiles_time:.2f} ms, {words}"
 
 

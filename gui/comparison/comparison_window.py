@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 NAMES = {"flat": "Flat", "gouraud": "Gouraud", "phong": "Phong", "bumps": "Phong with bumps"}
 RADIUS = 10.0  # mm, of the sphere
-SEGMENTS = (4, 12, 128)  # the fewest, at first, the most
+SEGMENTS = (8, 12, 128)  # the fewest, at first, the most: octahedra cut finer, in steps of 4
 SPHERE_MARGIN = 0.72  # a sphere is smaller than the box around it as it is seen
 LEFT, ABOVE = -25.0, 25.0  # degrees: where the one light is at first, as the eye sees it
 
@@ -53,6 +53,9 @@ class ComparisonWindow(QMainWindow):
         self._window, self._session = window, window.session
         self._drawing: Comparison | None = None
         self._stale = True
+        self._own_shine = True
+        """Whether materials keep their highlights; those of the sphere without one are the sliders' in any case."""
+        self._numbers: dict[ValueSlider, QLabel] = {}
         self.board = Board(self._draw, self._frame, self)
         self.board.show_names([*NAMES.values()])
         self.differences = Differences(self)
@@ -102,12 +105,16 @@ class ComparisonWindow(QMainWindow):
         return materials[place - 1] if 0 < place <= len(materials) else None
 
     def _changed_material(self, material: Material) -> Material:
-        shine = material.with_(specular=self.specular.number, shininess=self.shininess.number)
-        chosen = self._material()
-        if chosen is None or self.model.currentIndex() == 0:
+        chosen, sphere = self._material(), self.model.currentIndex() == 0
+        shine = material
+        if not self._own_shine or (sphere and chosen is None):
+            shine = material.with_(specular=self.specular.number, shininess=self.shininess.number)
+        if chosen is None or sphere:
             return shine
-        bumps = {field: getattr(material, field) for field in ("bump", "bump_kind", "bump_height")}
-        return chosen.with_(shading="", specular=shine.specular, shininess=shine.shininess, **bumps)
+        kept = {field: getattr(material, field) for field in ("bump", "bump_kind", "bump_height")}
+        if not self._own_shine:
+            kept |= {"specular": shine.specular, "shininess": shine.shininess}
+        return chosen.with_(shading="", **kept)
 
     def _columns(self) -> list[Any]:
         from ...render.surfaces.comparison import columns_of
@@ -155,15 +162,16 @@ class ComparisonWindow(QMainWindow):
         from ...render.surfaces.comparison import difference
 
         found = [difference(one, other) for one, other in pairwise(self.board.pictures)]
-        self.differences.show_differences([f"{one} \u2013 {other}" for one, other in pairwise(NAMES.values())], found)
+        self.differences.show_differences([f"{one} against {other}" for one, other in pairwise(NAMES.values())], found)
 
     # The controls.
 
     def _lay_out(self) -> None:
-        self.model = self._choice("model", "Model", ["A sphere", "The selected solid"])
+        self.model = self._choice("model", "Model", ["A sphere", "A solid of the document"])
         self.segments = QSpinBox(self)
         self.segments.setObjectName("segments")
         self.segments.setRange(SEGMENTS[0], SEGMENTS[2])
+        self.segments.setSingleStep(4)
         self.segments.setValue(SEGMENTS[1])
         self.segments.setKeyboardTracking(False)
         self.segments.setToolTip("Faces around the sphere: the fewer, the more the shadings differ")
@@ -235,8 +243,9 @@ class ComparisonWindow(QMainWindow):
         line.setContentsMargins(0, 0, 0, 0)
         number = QLabel(f"{limits[1]:g}", row)
         number.setMinimumWidth(34)
-        slider = ValueSlider(limits, self._show_again, self._show_again, lambda: None, row)
-        slider.valueChanged.connect(lambda: number.setText(f"{slider.number:g}"))
+        slider = ValueSlider(limits, self._slid, self._slid, lambda: None, row)
+        slider.setMinimumWidth(70)
+        self._numbers[slider] = number
         slider.setObjectName(name)
         slider.setAccessibleName(words)
         slider.setToolTip(f"{tip}\nA double click goes back to {limits[1]:g}")
@@ -250,11 +259,22 @@ class ComparisonWindow(QMainWindow):
         self.board.fit()
         self._show_again()
 
+    def _slid(self, value: float) -> None:
+        self._own_shine = False
+        self._show_numbers()
+        self._show_again()
+
+    def _show_numbers(self) -> None:
+        for slider, number in self._numbers.items():
+            number.setText(f"{slider.number:g}")
+
     def _take_numbers(self) -> None:
-        chosen = self._material()
+        """Those of the material that is chosen count until a slider is moved."""
+        chosen, self._own_shine = self._material(), True
         if chosen is not None:
             self.specular.show_number(chosen.specular, False)
             self.shininess.show_number(chosen.shininess, False)
+        self._show_numbers()
 
     def _show_controls(self) -> None:
         self.segments.setEnabled(self.model.currentIndex() == 0)
@@ -278,6 +298,7 @@ class ComparisonWindow(QMainWindow):
         if not there and self.model.currentIndex() == 1:
             self.model.setCurrentIndex(0)
             self._show_controls()
+            self.board.fit()
 
     def _document_changed(self) -> None:
         if self.isVisible():

@@ -35,10 +35,11 @@ class Differences(QWidget):
         self.update()
 
     def _words(self) -> list[tuple[str, str]]:
-        return [
-            (title, f"up to {each.greatest} grey levels; more than {SEEN} on {100.0 * each.share(SEEN):.1f} %")
-            for title, each in zip(self._titles, self.differences, strict=True)
-        ]
+        found = []
+        for title, each in zip(self._titles, self.differences, strict=True):
+            share = f"more than {SEEN} on {100.0 * each.share(SEEN):.1f} % of the picture"
+            found.append((title, f"up to {each.greatest} grey levels; {share}"))
+        return found
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)

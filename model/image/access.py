@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from ..document.errors import Refusal
 from .bitmap import Bytes
 from .tiled_file import TiledFile, write_tiled
 
@@ -46,7 +47,14 @@ def counted(width: int, height: int, tile: int, depth: int, side: int = 256) -> 
 
 def measured(pixels: Bytes, tile: int, side: int = 256) -> list[Access]:
     """The same of a picture (height, width, depth) written to two files, read with the files in the system's memory:
-    the least time of a few runs."""
+    the least time of a few runs. Raises Refusal where no file can be written."""
+    try:
+        return _measured(pixels, tile, side)
+    except OSError as error:
+        raise Refusal(f"nothing can be measured: {error.strerror or error}") from None
+
+
+def _measured(pixels: Bytes, tile: int, side: int) -> list[Access]:
     height, width, depth = pixels.shape
     found = []
     with tempfile.TemporaryDirectory() as folder:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .bitmap import Bitmap, Bytes, pitch_of
 
@@ -43,15 +42,39 @@ def place_of(bitmap: Bitmap, x: int, y: int) -> tuple[int, int]:
     return row * bitmap.pitch + byte, bit
 
 
+def number_at(bitmap: Bitmap, x: int, y: int) -> int:
+    """The number that is stored for a pixel of row y from the top: its index, or its bytes as one number."""
+    byte, bit = place_of(bitmap, x, y)
+    row, column = divmod(byte, bitmap.pitch)
+    if bitmap.bits < 8:
+        return int(bitmap.pixels[row, column]) >> (8 - bitmap.bits - bit) & (2**bitmap.bits - 1)
+    return int.from_bytes(bitmap.pixels[row, column : column + bitmap.bits // 8].tobytes(), "little")
+
+
+def lost_words(bitmap: Bitmap, ending: str) -> str:
+    """What a file of this ending does not keep of a bitmap, in words; "" where it keeps all."""
+    lost = []
+    if ending in (".bmp", ".dib"):
+        if bitmap.colour_key is not None:
+            lost.append("the colour key, which BMP does not have")
+    else:
+        if bitmap.palette is not None:
+            lost.append("the palette: the colours themselves are written")
+        if ending in (".jpg", ".jpeg"):
+            lost.append(
+                "what JPEG drops" + (", transparency too" if bitmap.alpha or bitmap.colour_key is not None else "")
+            )
+    return "; ".join(lost)
+
+
 def pixel_words(bitmap: Bitmap, rgba: Bytes, x: int, y: int) -> str:
     """A pixel in words: its number as stored, its colour, where it stands. `rgba` as `Bitmap.to_rgba` gives it."""
     red, green, blue, alpha = rgba[y, x].tolist()
     colour = f"red {red}, green {green}, blue {blue}" + (f", alpha {alpha}" if alpha < 255 or bitmap.alpha else "")
-    number = bitmap.samples()[y, x]
     if bitmap.bits <= 8:
-        value = f"index {int(number)}: {colour}"
+        value = f"index {number_at(bitmap, x, y)}: {colour}"
     elif bitmap.bits in (16, 32):
-        value = f"{int(number):0{bitmap.bits // 4}x}: {colour}"
+        value = f"{number_at(bitmap, x, y):0{bitmap.bits // 4}x}: {colour}"
     else:
         value = colour
     byte, bit = place_of(bitmap, x, y)
@@ -77,11 +100,6 @@ def channels_of(bitmap: Bitmap) -> list[str]:
     """The names that `channel` takes."""
     planes = bitmap.bits if bitmap.bits <= 16 or bitmap.bits == 32 else 0
     return [*CHANNELS, *(f"bit {number}" for number in reversed(range(planes)))]
-
-
-def histogram(rgba: Bytes) -> NDArray[np.int64]:
-    """(3, 256): how many pixels of each red, green and blue."""
-    return np.stack([np.bincount(rgba[..., k].reshape(-1), minlength=256) for k in range(3)])
 
 
 def byte_lines(data: bytes, start: int, count: int, base: int = 0) -> list[str]:

@@ -31,6 +31,7 @@ SHADINGS = ("flat", "gouraud", "phong", "bumps")
 SAMPLES = 4
 DIMPLES = (12, 6)  # on the bitmap that gives bumps to what has none, to the right and upwards
 SIDE = 24  # texels along one of them
+FAINT = 16  # levels: less than that is not stretched to white
 DEPTH = 0.02  # of those, as a share of the model's diagonal
 
 
@@ -167,8 +168,8 @@ class Difference:
         return float((self.levels > over).mean()) if self.levels.size else 0.0
 
     def picture(self) -> NDArray[np.uint8]:
-        """(height, width, 3) black where both are the same, white where they differ most."""
-        scaled = self.levels.astype(float) * (255.0 / max(self.greatest, 1))
+        """(height, width, 3) black where both are the same, white where they differ most, by FAINT levels at least."""
+        scaled = self.levels.astype(float) * (255.0 / max(self.greatest, FAINT))
         return np.repeat(np.rint(scaled).astype(np.uint8)[..., None], 3, axis=2)
 
 
