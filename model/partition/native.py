@@ -99,6 +99,7 @@ def _declared(compiled: ctypes.CDLL) -> ctypes.CDLL:
         ("proximity_build", _COUNT, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS, _ADDRESS)),
         ("proximity_distance", _NUMBER, (_ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
         ("proximity_nearest", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, ctypes.c_double, _ADDRESS, _ADDRESS, _ADDRESS)),
+        ("proximity_pieces", None, (_ADDRESS, _COUNT, _COUNT, _ADDRESS)),
         ("proximity_windings", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),
     ):
         function = getattr(compiled, name)

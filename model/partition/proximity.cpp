@@ -42,11 +42,13 @@ inline Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
 inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline Vec cross(Vec a, Vec b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
-// The nearest pair of points found so far, and the triangles that they are on.
+// The nearest pair of points found so far, the triangles that they are on, and the unit vector from one to the other; at
+// first the limit, and a direction from the first surface to the second.
 struct Best {
     double square;
     Vec a, b;
     int32_t one, other;
+    Vec along;
 };
 
 inline bool offer(Best& best, Vec a, Vec b) {
@@ -152,15 +154,6 @@ bool nearest_of(const Vec* one, const Vec* other, Best& best) {
     return found;
 }
 
-inline double gap_of(const double* one, const double* other) {
-    double square = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double gap = std::max(one[k] - other[3 + k], other[k] - one[3 + k]);
-        if (gap > 0.0) square += gap * gap;
-    }
-    return square;
-}
-
 inline double gap_to(const double* box, Vec p) {
     const double point[3] = {p.x, p.y, p.z};
     double square = 0.0;
@@ -181,10 +174,23 @@ inline void corners_of(const BoxTree& tree, int32_t triangle, Vec* t) {
 }
 
 struct Pair {
-    double square;
+    double square, between;  // of the boxes' gap, and of the way from middle to middle
     int32_t one, other;
 };
 
+inline Pair pair_of(const BoxTree& one, const BoxTree& other, int32_t i, int32_t j) {
+    const double *box = one.boxes + 6 * int64_t(i), *counter = other.boxes + 6 * int64_t(j);
+    double square = 0.0, between = 0.0;
+    for (int k = 0; k < 3; ++k) {
+        const double gap = std::max(box[k] - counter[3 + k], counter[k] - box[3 + k]);
+        if (gap > 0.0) square += gap * gap;
+        const double way = box[k] + box[3 + k] - counter[k] - counter[3 + k];
+        between += way * way;
+    }
+    return {square, between, i, j};
+}
+
+// The triangles of two leaves, but for those that a slab across the best way keeps as far apart as it is long: most.
 void leaves(const BoxTree& one, const BoxTree& other, int32_t i, int32_t j, Best& best) {
     const int32_t *a = one.links + 2 * int64_t(i), *b = other.links + 2 * int64_t(j);
     for (int32_t m = 0; m < a[1]; ++m) {
@@ -195,11 +201,16 @@ void leaves(const BoxTree& one, const BoxTree& other, int32_t i, int32_t j, Best
             const int32_t right = other.order[b[0] + n];
             Vec s[3];
             corners_of(other, right, s);
-            if (nearest_of(t, s, best)) {
-                best.one = left;
-                best.other = right;
-            }
+            const Vec way = best.along;
+            const double ends = std::max(std::max(dot(way, t[0]), dot(way, t[1])), dot(way, t[2]));
+            const double begins = std::min(std::min(dot(way, s[0]), dot(way, s[1])), dot(way, s[2]));
+            const double apart = begins - ends;
+            if (apart > 0.0 && apart * apart >= best.square) continue;
+            if (!nearest_of(t, s, best)) continue;
+            best.one = left;
+            best.other = right;
             if (best.square == 0.0) return;
+            best.along = (1.0 / std::sqrt(best.square)) * (best.b - best.a);
         }
     }
 }
@@ -207,7 +218,7 @@ void leaves(const BoxTree& one, const BoxTree& other, int32_t i, int32_t j, Best
 // From the pair of roots down, the nearer boxes first; pairs that are farther apart than what was found are left out.
 void descend(const BoxTree& one, const BoxTree& other, Best& best) {
     std::vector<Pair> waiting;
-    waiting.push_back({gap_of(one.boxes, other.boxes), 0, 0});
+    waiting.push_back(pair_of(one, other, 0, 0));
     while (!waiting.empty() && best.square > 0.0) {
         const Pair pair = waiting.back();
         waiting.pop_back();
@@ -223,9 +234,10 @@ void descend(const BoxTree& one, const BoxTree& other, Best& best) {
         Pair parts[2];
         for (int k = 0; k < 2; ++k) {
             const int32_t i = opens ? child + k : pair.one, j = opens ? pair.other : child + k;
-            parts[k] = {gap_of(one.boxes + 6 * int64_t(i), other.boxes + 6 * int64_t(j)), i, j};
+            parts[k] = pair_of(one, other, i, j);
         }
-        if (parts[0].square < parts[1].square) std::swap(parts[0], parts[1]);
+        const bool same = parts[0].square == parts[1].square;
+        if (same ? parts[0].between < parts[1].between : parts[0].square < parts[1].square) std::swap(parts[0], parts[1]);
         for (const Pair& part : parts)
             if (part.square < best.square) waiting.push_back(part);
     }
@@ -340,8 +352,13 @@ PROXIMITY_API int64_t proximity_build(const double* triangles, int64_t count, in
 PROXIMITY_API int32_t proximity_distance(
     const BoxTree* one, const BoxTree* other, double limit, double* found, int32_t* faces) {
     try {
-        Best best = {limit * limit, {0, 0, 0}, {0, 0, 0}, -1, -1};
-        if (one->nodes > 0 && other->nodes > 0) descend(*one, *other, best);
+        Best best = {limit * limit, {0, 0, 0}, {0, 0, 0}, -1, -1, {0, 0, 0}};
+        if (one->nodes > 0 && other->nodes > 0) {
+            const Vec way = at(other->boxes) + at(other->boxes + 3) - at(one->boxes) - at(one->boxes + 3);
+            const double square = dot(way, way);
+            if (square > 0.0 && std::isfinite(square)) best.along = (1.0 / std::sqrt(square)) * way;
+            descend(*one, *other, best);
+        }
         found[0] = best.one < 0 ? INFINITE : std::sqrt(best.square);
         const Vec points[2] = {best.a, best.b};
         for (int k = 0; k < 2; ++k) {
@@ -365,7 +382,7 @@ PROXIMITY_API int32_t proximity_nearest(
         std::vector<std::pair<double, int32_t>> waiting;
         for (int64_t i = 0; i < count; ++i) {
             const Vec p = at(points + 3 * i);
-            Best best = {limit * limit, p, p, -1, -1};
+            Best best = {limit * limit, p, p, -1, -1, {0, 0, 0}};
             waiting.clear();
             if (tree->nodes > 0) waiting.push_back({gap_to(tree->boxes, p), 0});
             while (!waiting.empty()) {
@@ -398,6 +415,24 @@ PROXIMITY_API int32_t proximity_nearest(
     } catch (const std::bad_alloc&) {
         return 1;
     }
+}
+
+// Which triangles (count, 3) over `vertices` vertices hang together: labels (vertices,) the least vertex of each one's
+// piece, -1 where no triangle has it.
+PROXIMITY_API void proximity_pieces(const int32_t* corners, int64_t count, int64_t vertices, int32_t* labels) {
+    for (int64_t i = 0; i < vertices; ++i) labels[i] = -1;
+    for (int64_t i = 0; i < 3 * count; ++i) labels[corners[i]] = corners[i];
+    const auto root = [labels](int32_t vertex) {
+        while (labels[vertex] != vertex) vertex = labels[vertex] = labels[labels[vertex]];
+        return vertex;
+    };
+    for (int64_t i = 0; i < count; ++i)
+        for (int k = 1; k < 3; ++k) {
+            const int32_t a = root(corners[3 * i]), b = root(corners[3 * i + k]);
+            labels[std::max(a, b)] = std::min(a, b);
+        }
+    for (int64_t i = 0; i < vertices; ++i)
+        if (labels[i] >= 0) labels[i] = root(int32_t(i));
 }
 
 // How often a closed surface winds round points (n, 3): what a ray upwards leaves less what it enters.

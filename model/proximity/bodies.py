@@ -11,6 +11,7 @@ from manifold3d import Manifold, OpType
 from numpy.typing import NDArray
 
 from ..mesh.faults.box_pairs import meeting
+from . import native
 from .boxes import BoxTree, Floats
 
 APART, TOUCHING, OVERLAPPING, INSIDE, AROUND = "apart", "touching", "overlapping", "inside", "around"
@@ -55,6 +56,9 @@ class Body:
     @cached_property
     def landmarks(self) -> Floats:
         """(k, 3) a vertex of each connected surface."""
+        if native.available():
+            labels = native.pieces(self.triangles, len(self.vertices))
+            return self.vertices[labels == np.arange(len(labels))]
         from scipy.sparse import coo_matrix
         from scipy.sparse.csgraph import connected_components
 

@@ -64,9 +64,17 @@ def windings(tree: Tree, points: Floats) -> Numbers:
     return found.astype(np.int64)
 
 
+def pieces(triangles: NDArray[np.integer], vertices: int) -> Numbers:
+    """(n,) for each of `vertices` the least vertex of its piece of triangles (m, 3), -1 where none has it. The corners
+    must be among the vertices."""
+    corners, labels = np.ascontiguousarray(triangles, np.int32), np.empty(vertices, np.int32)
+    library().proximity_pieces(corners.ctypes.data, len(corners), vertices, labels.ctypes.data)
+    return labels.astype(np.int64)
+
+
 def _check(status: int) -> None:
     if status:
         raise MemoryError("there is not enough memory for what surfaces are asked")
 
 
-__all__ = ["Tree", "available", "distance", "nearest", "windings"]
+__all__ = ["Tree", "available", "distance", "nearest", "pieces", "windings"]
