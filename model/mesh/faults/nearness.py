@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...document.errors import Refusal
-from .box_pairs import meeting
+from .box_pairs import near_segments
 from .sides import Flags, Floats, Numbers, Sides
 
 MAX_PAIRS = 20_000_000
@@ -64,11 +64,9 @@ def near_edges(
     that edge: such triangles are slivers. Edges with a common vertex are joined.
     """
     a, b = vertices[sides.ends[:, 0]], vertices[sides.ends[:, 1]]
-    margin = tolerance * (0.5 + 1e-9)
-    low, high = np.minimum(a, b) - margin, np.maximum(a, b) + margin
     meets: list[Numbers] = [np.zeros((0, 2), np.int64)]
     crosses: list[Numbers] = [np.zeros((0, 2), np.int64)]
-    for one, two in meeting(low, high, told):
+    for one, two in near_segments(a, b, tolerance * (0.5 + 1e-9), told):
         one, two = _lines_near(a, b, sides.ends, one, two, tolerance)
         near_one, ends_one = _ends_at(vertices, sides.ends[one], sides.ends[two], tolerance)
         near_two, ends_two = _ends_at(vertices, sides.ends[two], sides.ends[one], tolerance)
