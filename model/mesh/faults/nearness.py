@@ -105,7 +105,7 @@ def _vertices_on(vertices: Floats, triangles: Numbers, sides: Sides, meets: Numb
     opposite = triangles[:, [2, 0, 1]].reshape(-1)
     here = sides.edge >= 0
     own = np.unique(opposite[here] * count + sides.edge[here])
-    keys = np.setdiff1d(meets[:, 0] * count + meets[:, 1], own)
+    keys = np.setdiff1d(meets[:, 0] * count + meets[:, 1], own).astype(np.int64)
     vertex, ends = keys // count, sides.ends[keys % count]
     feet, gaps, _ = feet_on(vertices[vertex], vertices[ends[:, 0]], vertices[ends[:, 1]])
     return Near(np.column_stack((vertex, ends)), (feet + vertices[vertex]) / 2.0, gaps)
