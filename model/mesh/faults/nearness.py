@@ -150,8 +150,9 @@ def _between(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats
     sizes = np.einsum("ij,ij->i", along, along) * np.einsum("ij,ij->i", across, across)
     askew = squared > 1e-24 * sizes
     safe = np.where(askew, squared, 1.0)
-    s = np.einsum("ij,ij->i", np.cross(apart, across), normal) / safe
-    t = np.einsum("ij,ij->i", np.cross(apart, along), normal) / safe
+    with np.errstate(over="ignore"):  # of nearly parallel ones, whose places are far outside
+        s = np.clip(np.einsum("ij,ij->i", np.cross(apart, across), normal) / safe, -1.0, 2.0)
+        t = np.clip(np.einsum("ij,ij->i", np.cross(apart, along), normal) / safe, -1.0, 2.0)
     one, two = a + s[:, None] * along, c + t[:, None] * across
     inner = askew & (s > 0.0) & (s < 1.0) & (t > 0.0) & (t < 1.0)
     return (one + two) / 2.0, np.linalg.norm(one - two, axis=1), inner
