@@ -31,6 +31,7 @@ from .curves.control_points import delete_points, insert_point, move_points, pla
 from .curves.conversion import convert_to_bspline, convert_to_path
 from .curves.joints import harmonise_joints, match_curvature, smooth_joints
 from .curves.knots import elevate_degree, insert_knot, reduce_degree, refine_knots, remove_knot, set_knot
+from .curves.mending import repair_outline
 from .curves.node_places import align_nodes, distribute_nodes, mirror_outline
 from .curves.nodes import (
     delete_nodes,
@@ -46,6 +47,17 @@ from .curves.outline_areas import combine_outlines, offset_outline, stroke_outli
 from .engraving import engrave
 from .fonts import carry_font, copy_font, edit_glyphs, release_font, reset_glyphs, transform_glyphs
 from .linking import check_definitions, insert_document, link, unlink
+from .meshes.editing import (
+    collapse_mesh_edge,
+    delete_mesh_faces,
+    flip_mesh_edge,
+    move_mesh_vertices,
+    reverse_mesh_faces,
+    split_mesh_edge,
+    split_mesh_face,
+)  # fmt: skip
+from .meshes.mending import repair_mesh
+from .meshes.mesh_nodes import convert_to_mesh
 from .outlining import make_solid, make_stencils, set_text_on_path
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
 from .parameters import declaring, delete_parameter, rename_parameter, reorder_parameter, set_parameter
@@ -180,7 +192,9 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         add_material, set_material, rename_material, delete_material, use_material, set_mapping,
         add_light, set_light, rename_light, delete_light, set_shading,
         engrave, carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
-        bend_segment,
+        convert_to_mesh, repair_mesh, split_mesh_edge, flip_mesh_edge, collapse_mesh_edge, split_mesh_face,
+        delete_mesh_faces, reverse_mesh_faces, move_mesh_vertices,
+        bend_segment, repair_outline,
         combine_outlines, offset_outline, stroke_outline,
         convert_to_path, convert_to_bspline, move_nodes, place_nodes, move_handle, set_handle, set_joints, insert_node,
         delete_nodes, transform_nodes, align_nodes, distribute_nodes, mirror_outline, smooth_joints, harmonise_joints,
