@@ -32,6 +32,7 @@ def connect(window: MainWindow) -> None:
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
+    _pipeline(window)
     window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
     window.docks["Curve"].visibilityChanged.connect(window.actions_.refresh)
     window.curve_panel.seen.connect(window.joints_page.set_seen)
@@ -57,6 +58,7 @@ def _words(window: MainWindow) -> None:
         window.bsp,
         window.curve,
         window.surfaces,
+        window.pipeline,
         window.light_tool,
         window.mapping_tool,
     ):
@@ -114,6 +116,18 @@ def _measuring(window: MainWindow) -> None:
     panel.start_asked.connect(lambda: window.actions_.run("measure"))
     window.files.opened.connect(tool.clear)
     window.files.opened.connect(tool.end)
+
+
+def _pipeline(window: MainWindow) -> None:
+    tool = window.pipeline.tool
+    window.docks["Pipeline"].visibilityChanged.connect(window.pipeline.set_in_front)
+    tool.said.connect(window.status.set_hint)
+    tool.began.connect(lambda: window.handles.set_hidden(True))
+    tool.ended.connect(lambda: window.handles.set_hidden(False))
+    tool.ended.connect(window.actions_.refresh)
+    window.files.opened.connect(tool.end)
+    for other in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+        other.began.connect(tool.end)
 
 
 def _editing(window: MainWindow) -> None:
