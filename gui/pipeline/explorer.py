@@ -113,8 +113,8 @@ class PipelineExplorer(QObject):
             return
         root_id = list(meshes)[place]
         try:
-            most = len(meshes[root_id].vertices) - 1
-            self._take(vertex_subject(root_id, min(vertex, most), meshes[root_id], self._solids))
+            self._take(vertex_subject(root_id, vertex, meshes[root_id], self._solids))
+            self.refused.emit("")
         except Refusal as refusal:
             self.refused.emit(sentence(refusal))
 

@@ -69,6 +69,7 @@ class FramePage(QWidget):
         self.automatic.clicked.connect(self.automatic_asked)
         top = QHBoxLayout()
         top.setContentsMargins(8, 4, 8, 4)
+        top.setSpacing(10)
         top.addWidget(self.space)
         top.addWidget(self.legend, 1)
         top.addWidget(fit)

@@ -27,8 +27,11 @@ AROUND = np.array([*PLANES, *BEFORE_EYE]) + np.array([[0.0, 0.0, 0.0, 1.5]] * 6 
 MOST_POLYGONS = 800
 SMOOTH = 2500
 """So many lines are drawn smoothly."""
+CROWD = 400
+"""Of more lines each is drawn fainter, so that they stay lines."""
 NOTHING = "Nothing is shown: add a solid, or show one."
 AXIS = 24.0  # pixels that an axis is long
+APART = 26.0  # pixels between points that are both named
 
 
 def device_axes(points: Floats) -> Floats:
@@ -73,7 +76,8 @@ class FramePainter:
         else:
             outside, inside = flow.geometry.lines, self._shown(flow.inside)
         self._draw(outside, self._inks.outside, 1.0)
-        self._draw(inside, self._inks.inside, 1.3)
+        many = len(inside) > CROWD
+        self._draw(inside, self._inks.inside, 1.0 if many else 1.3, opacity=0.45 if many else 1.0)
 
     def _polygons(self, flow: Flow) -> None:
         """What the planes have cut, tinted."""
@@ -100,7 +104,8 @@ class FramePainter:
         for name, rim in RIMS.items():
             ink = getattr(self._inks, name)
             self._draw(corners[rim], ink, 2.0)
-            self._word(corners[rim[2, 0]], name, ink, (4.0, -4.0))
+            if eye is None or self._apart(corners[rim[2, 0]], eye):
+                self._word(corners[rim[2, 0]], name, ink, (4.0, -4.0))
 
     def _ray(self, flow: Flow) -> None:
         point = flow.clip_point
@@ -114,13 +119,13 @@ class FramePainter:
             ends = self._shown(np.array([(x, y, -1.0, 1.0), (x, y, 1.0, 1.0)]))
             start = ends[0] if self._view.device or eye is None else eye
             self._draw(np.array([(start, ends[1])]), ink, 1.6)
-            self._cross(ends[0], ink)
             shown = self._shown(point)
+            self._cross(ends[0], ink, self._apart(ends[0], shown) and self._apart(ends[0], start, self._view.device))
         else:
             shown = None if self._view.device else flow.point
         if shown is not None:
             self._dot(shown, ink, 4.0)
-            self._word(shown, "vertex", ink, (7.0, 12.0))
+            self._word(shown, "vertex", ink, (-44.0, -8.0))
 
     def _axes(self) -> None:
         """The three axes of what is shown, in the lower left corner."""
@@ -140,7 +145,14 @@ class FramePainter:
 
     # In pixels.
 
-    def _draw(self, lines: Floats, ink: str, width: float, style: Qt.PenStyle = Qt.PenStyle.SolidLine) -> None:
+    def _draw(
+        self,
+        lines: Floats,
+        ink: str,
+        width: float,
+        style: Qt.PenStyle = Qt.PenStyle.SolidLine,
+        opacity: float = 1.0,
+    ) -> None:
         """Lines (n, 2, 3) of what is shown, cut off at the widget's border: the far end of a frustum may be far."""
         if not len(lines):
             return
@@ -150,7 +162,9 @@ class FramePainter:
         flat = flat[np.isfinite(flat).all(axis=(1, 2))]
         found, visible = clipped_lines(flat, PLANES[:4])
         ends = (found[visible, :, :2] + 1.0) / 2.0 * size
-        self._painter.setPen(QPen(QColor(ink), width, style))
+        colour = QColor(ink)
+        colour.setAlphaF(opacity)
+        self._painter.setPen(QPen(colour, width, style))
         self._painter.drawLines([QLineF(*row) for row in ends.reshape(-1, 4).tolist()])
 
     def _place(self, point: Floats) -> QPointF | None:
@@ -165,14 +179,19 @@ class FramePainter:
             self._painter.drawEllipse(place, radius, radius)
             self._painter.setBrush(Qt.BrushStyle.NoBrush)
 
-    def _cross(self, point: Floats, ink: str) -> None:
+    def _apart(self, one: Floats, other: Floats, yes: bool = False) -> bool:
+        """Whether two points are so far from each other that both can be named."""
+        return yes or float(np.abs(np.subtract(*self._view.to_widget(np.array((one, other))))).max()) > APART
+
+    def _cross(self, point: Floats, ink: str, named: bool) -> None:
         """The pixel, on the near side."""
         place = self._place(point)
         if place is not None:
             self._painter.setPen(QPen(QColor(ink), 2.0))
             self._painter.drawLine(place - QPointF(5.0, 0.0), place + QPointF(5.0, 0.0))
             self._painter.drawLine(place - QPointF(0.0, 5.0), place + QPointF(0.0, 5.0))
-            self._word(point, "pixel", ink, (7.0, -5.0))
+            if named:
+                self._word(point, "pixel", ink, (7.0, -5.0))
 
     def _word(self, point: Floats, text: str, ink: str, aside: tuple[float, float]) -> None:
         place = self._place(point)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,14 +11,15 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from ...render.camera import Camera, fit, orbit, pan, project, zoom
+from ...render.camera import Camera, frame, orbit, pan, project, vector_of, zoom
 from ...render.views import standard_view
-from .flow import Flow
+from .flow import CUBE, Flow
 from .frame_paint import FramePainter
 
 Floats = NDArray[np.float64]
 TURN = 0.5  # degrees a pixel
 NOTCH = 1.25  # by one notch of the wheel
+MARGIN = 1.2
 ZOOMS = (Qt.Key.Key_Plus, Qt.Key.Key_Equal, Qt.Key.Key_Minus)
 ARROWS = {
     Qt.Key.Key_Left: (-8.0, 0.0),
@@ -65,13 +67,24 @@ class FrameView(QWidget):
 
     def fit(self) -> None:
         """Show the whole of it."""
-        bounds = self._bounds()
-        if bounds is None or self.width() < 20 or self.height() < 20:
+        points = self._points()
+        if points is None or self.width() < 20 or self.height() < 20:
             return
         camera = self.camera
         if not self.device and not self._fitted[False] and self.flow is not None:
             camera = self._beside(self.flow)
-        self._cameras[self.device] = fit(camera, bounds, self.width() / self.height(), 1.12)
+        axes = frame(camera)
+        local = points @ axes.T
+        low, high = local.min(axis=0), local.max(axis=0)
+        x, y, _ = (high - low) / 2.0 * MARGIN
+        target = (low + high) / 2.0 @ axes
+        scale = max(float(x) * self.height() / self.width(), float(y), 1e-6)
+        self._cameras[self.device] = replace(
+            camera,
+            position=vector_of(target + axes[2] * camera.distance),
+            target=vector_of(target),
+            parallel_scale=scale,
+        )
         self._fitted[self.device] = True
         self.update()
 
@@ -79,23 +92,22 @@ class FrameView(QWidget):
         """(n, 2) pixels of points (n, 3) of what is shown."""
         return project(self.camera, points, (self.width(), self.height()))[:, :2]
 
-    def _bounds(self) -> Floats | None:
+    def _points(self) -> Floats | None:
+        """(n, 3) what is to be seen of it."""
         if self.flow is None:
             return None
         if self.device:
-            return np.array([[-1.25] * 3, [1.25] * 3])
-        found = [self.flow.frustum]
-        eye, box = self.flow.eye, self.flow.geometry.bounds
-        if eye is not None:
-            found.append(eye[None])
+            return 1.1 * CUBE
+        found, eye, box = self.flow.frustum, self.flow.eye, self.flow.geometry.bounds
+        corners = np.zeros((0, 3)) if box is None else np.array(list(product(*box.T)))
+        if eye is not None and len(corners):
             # A far plane that is very far would leave nothing to see of the rest.
-            reach = 2.0 * float(np.linalg.norm((box.mean(axis=0) if box is not None else 0.0) - eye))
-            ways = found[0] - eye
-            length = np.linalg.norm(ways, axis=1, keepdims=True)
-            found[0] = eye + ways * np.minimum(1.0, reach / np.maximum(length, 1e-12)) if reach > 0.0 else found[0]
-        points = np.concatenate([*found, *([] if box is None else [box])])
+            reach = 1.1 * float(np.linalg.norm(corners - eye, axis=1).max())
+            length = np.linalg.norm(found - eye, axis=1, keepdims=True)
+            found = eye + (found - eye) * np.minimum(1.0, reach / np.maximum(length, 1e-12))
+        points = np.concatenate((found, corners, np.zeros((0, 3)) if eye is None else eye[None]))
         points = points[np.isfinite(points).all(axis=1)]
-        return np.array([points.min(axis=0), points.max(axis=0)]) if len(points) else None
+        return points if len(points) else None
 
     @staticmethod
     def _beside(flow: Flow) -> Camera:
@@ -107,8 +119,7 @@ class FrameView(QWidget):
             side = np.array([0.0, -1.0, 0.0])
         side /= np.linalg.norm(side)
         position = middle[0] + side + 0.35 * np.array([0.0, 0.0, 1.0])
-        place = tuple(float(value) for value in position)
-        return replace(Camera(parallel=True), position=place, target=tuple(float(value) for value in middle[0]))
+        return replace(Camera(parallel=True), position=vector_of(position), target=vector_of(middle[0]))
 
     # Mouse and keys.
 

@@ -37,6 +37,7 @@ class MatricesPage(QWidget):
         self.resets: dict[str, QPushButton] = {}
         self.applies: dict[str, QPushButton] = {}
         self._marks: dict[str, QLabel] = {}
+        self._heads: dict[str, QLabel] = {}
         self._matrices: Matrices | None = None
         self._pointed = ("", -1, -1)
         content = QWidget(self)
@@ -72,7 +73,8 @@ class MatricesPage(QWidget):
 
     def _head(self, name: str, parent: QWidget) -> QHBoxLayout:
         title, what = TITLES[name]
-        label = QLabel(f"<b>{title}</b>&nbsp; {what}", parent)
+        label = QLabel(parent)
+        label.setToolTip(f"{title}: {what}")
         label.setProperty("muted", True)
         label.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         mark = QLabel("changed here", parent)
@@ -92,6 +94,7 @@ class MatricesPage(QWidget):
         for widget in (mark, reset, apply):
             widget.hide()
             line.addWidget(widget)
+        self._heads[name] = label
         self._marks[name], self.resets[name], self.applies[name] = mark, reset, apply
         return line
 
@@ -104,6 +107,8 @@ class MatricesPage(QWidget):
                 getattr(matrices, name), there, lambda row, column, name=name: entry_words(name, matrices, row, column)
             )
             self._marks[name].setVisible(there)
+            title, what = TITLES[name]
+            self._heads[name].setText(f"<b>{title}</b>" + ("" if there else f"&nbsp; {what}"))
             self.resets[name].setVisible(there)
             self.applies[name].setVisible(there and name in appliable)
         self._explain()

@@ -30,6 +30,7 @@ class MatrixGrid(QTableWidget):
     def __init__(self, title: str, parent: QWidget | None = None) -> None:
         super().__init__(4, 4, parent)
         self.setAccessibleName(f"{title} matrix")
+        self.setProperty("matrix", True)
         self.setFont(monospaced(self.font()))
         self.horizontalHeader().hide()
         self.verticalHeader().hide()

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QScrollArea,
     QSizePolicy,
-    QSpinBox,
     QSplitter,
     QTabWidget,
     QToolButton,
@@ -22,6 +21,7 @@ from PySide6.QtWidgets import (
 
 from ...model.document.errors import Refusal
 from ..icons import icon
+from ..panels.number_field import NumberField, Steps
 from ..panels.property_edit import sentence
 from ..panels.text_line import TextLine
 from ..partition.model_page import point_from
@@ -67,14 +67,13 @@ class PipelinePage(QWidget):
         self.solid.setAccessibleName("Solid of the vertex")
         self.solid.setMinimumContentsLength(6)
         self.solid.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
-        self.solid.activated.connect(lambda _: self._choose())
-        self.vertex = QSpinBox(self)
+        self.solid.activated.connect(lambda place: self.vertex_chosen.emit(place, 0))
+        self.vertex = NumberField(Steps(fine=1.0, minimum=0.0), self)
         self.vertex.setAccessibleName("Number of the vertex")
-        self.vertex.setToolTip("A vertex by its number in the mesh of the solid")
-        self.vertex.setRange(-1, -1)
-        self.vertex.setSpecialValueText("\u2013")
-        self.vertex.setKeyboardTracking(False)
-        self.vertex.valueChanged.connect(lambda _: self._choose())
+        self.vertex.setPlaceholderText("vertex")
+        self.vertex.setToolTip("A vertex by its number in the mesh of the solid; arrow keys go to the next")
+        self.vertex.typed.connect(self._number)
+        self.vertex.stepping.connect(lambda number: self.vertex_chosen.emit(self.solid.currentIndex(), int(number)))
         self.stages = StageTable(self)
         self.stages.chosen.connect(self.explain)
         self.words = QLabel(EMPTY, self)
@@ -141,7 +140,7 @@ class PipelinePage(QWidget):
         parts.setStretchFactor(0, 0)
         parts.setStretchFactor(1, 1)
         parts.setChildrenCollapsible(False)
-        parts.setSizes([290, 500])
+        parts.setSizes([320, 500])
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(parts)
@@ -165,6 +164,7 @@ class PipelinePage(QWidget):
         self.pixels.pointed.connect(words.setText)
         top = QHBoxLayout()
         top.setContentsMargins(8, 4, 8, 4)
+        top.setSpacing(10)
         top.addWidget(self.mode)
         top.addWidget(self.cull)
         top.addStretch(1)
@@ -185,7 +185,8 @@ class PipelinePage(QWidget):
     def show_trial(self, words: str) -> None:
         """What is changed here, "" for nothing."""
         self.state.setVisible(bool(words))
-        self.changed.setText(f"<b>Changed here:</b> {words}. The picture is as it was.")
+        self.changed.setText(f'<b style="color:{inks_now().changed}">Changed here:</b> {words}')
+        self.changed.setToolTip("The picture is as it was: this is tried in the panel alone")
 
     def show_point(self, point: tuple[float, ...] | None) -> None:
         """Write a point of the world into the field, unless the user is typing."""
@@ -205,20 +206,24 @@ class PipelinePage(QWidget):
             self.solid.clear()
             self.solid.addItems(names)
         self.solid.setCurrentIndex(place)
-        self.vertex.blockSignals(True)
         self.vertex.setEnabled(most >= 0)
-        self.vertex.setRange(-1, most)
-        self.vertex.setValue(vertex)
-        self.vertex.blockSignals(False)
+        self.vertex.steps = Steps(fine=1.0, minimum=0.0, maximum=float(max(most, 0)))
+        self.vertex.set_value(float(vertex) if vertex >= 0 else None)
 
     def retint(self) -> None:
         """Take the colours of the theme."""
-        self.state.setStyleSheet(f"QFrame {{ border-left: 3px solid {inks_now().cut}; }} QLabel {{ border: none; }}")
         self.frame.retint()
         self.pixels.set_mode(self.pixels.mode)
 
-    def _choose(self) -> None:
-        self.vertex_chosen.emit(self.solid.currentIndex(), self.vertex.value())
+    def _number(self, text: str) -> None:
+        """A vertex's number that was typed."""
+        self.vertex.setModified(False)
+        if text and not text.isdecimal():
+            self.vertex.set_fault(True)
+            self.refused.emit(f"\u201c{text}\u201d is no number of a vertex: write 0, 1, 2 and so on")
+            return
+        self.refused.emit("")
+        self.vertex_chosen.emit(self.solid.currentIndex(), int(text) if text else -1)
 
     def _typed(self) -> None:
         if not self.point.isModified():

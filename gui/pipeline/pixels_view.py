@@ -158,9 +158,9 @@ class PixelsView(QWidget):
         return QImage(pixels.data, width, height, 3 * width, QImage.Format.Format_RGB888).copy()
 
     def _vertex(self, painter: QPainter, flow: Flow, frame: QRectF) -> None:
-        """The pixel of the followed vertex."""
+        """The pixel of the followed vertex, where no plane has cut it off."""
         point = flow.clip_point
-        if point is None or point[3] <= 0.0:
+        if point is None or point[3] <= 0.0 or (flow.planes @ point < 0.0).any():
             return
         x, y = divided(point @ flow.matrices.viewport.T)[:2]
         scale = frame.width() / flow.size[0]

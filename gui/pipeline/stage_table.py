@@ -49,6 +49,7 @@ class StageTable(QTableWidget):
     def show_stages(self, stages: Sequence[Stage]) -> None:
         """The rows; the choice stays."""
         self.stages = stages
+        self.setVisible(bool(stages))
         if self.rowCount() != len(stages):
             self.setRowCount(len(stages))
             for row in range(len(stages)):
@@ -86,7 +87,7 @@ class StageTable(QTableWidget):
 
 
 def _text(stage: Stage, value: float) -> str:
-    """Pixels to a hundredth, other numbers to as many digits as there is room for."""
+    """Pixels to a hundredth, other numbers to five digits."""
     if stage.name == PIXEL and 1.5 < abs(value) < 1e6:
         return f"{value:.2f}".replace("-", MINUS)
-    return number(value, 6)
+    return number(value)

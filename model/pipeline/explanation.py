@@ -46,14 +46,14 @@ def way_of(matrices: Matrices, point: Floats) -> tuple[Stage, ...]:
     clip, device, pixel = found.clip[0], found.device[0], found.pixel[0]
     beyond = outside(clip)
     seen = "inside all six planes: it is seen" if not beyond else f"outside the {_list(beyond)}: it is clipped"
-    behind = " The eye has it behind itself: w is not above 0." if clip[3] <= 0.0 else ""
+    behind = "; the eye has it behind itself: w is not above 0" if clip[3] <= 0.0 else ""
     return (
         Stage("Model", _tuple(own[:3]), (), "in the axes of the node that made it, in mm"),
         Stage("World", _tuple(world[:3]), _rows(matrices.model, own, 3), "in the document's axes, in mm"),
         Stage("Eye", _tuple(eye[:3]), _rows(matrices.view, world, 3),
               "x to the right, y up, z backward: what is seen has z below 0"),
         Stage("Clip", _tuple(clip), _rows(matrices.projection, eye, 4),
-              f"seen is where {MINUS}w \u2264 x, y, z \u2264 w; {seen}.{behind}"),
+              f"seen is where {MINUS}w \u2264 x, y, z \u2264 w; {seen}{behind}"),
         Stage("Device", _tuple(device), tuple(
             f"{axis} = {number(value)} / {_put(clip[3])} = {number(result)}"
             for axis, value, result in zip(AXES, clip, device, strict=False)),
@@ -64,13 +64,14 @@ def way_of(matrices: Matrices, point: Floats) -> tuple[Stage, ...]:
 
 
 def _rows(matrix: Floats, column: Floats, count: int) -> tuple[str, ...]:
-    """A row of the matrix times the column, for each row."""
+    """A row of the matrix times the column, for each row; what is multiplied by 0 is left out."""
     result = matrix @ column
+    terms = (
+        [f"{_put(a)}\u00b7{_put(b)}" for a, b in zip(matrix[i], column, strict=True) if a != 0.0] for i in range(count)
+    )
     return tuple(
-        f"{AXES[i]} = "
-        + " + ".join(f"{_put(a)}\u00b7{_put(b)}" for a, b in zip(matrix[i], column, strict=True))
-        + f" = {number(result[i])}"
-        for i in range(count)
+        " = ".join((axis, *([" + ".join(row)] if row else []), number(value)))
+        for axis, row, value in zip(AXES, terms, result, strict=False)
     )
 
 
