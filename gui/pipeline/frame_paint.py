@@ -25,7 +25,7 @@ BETWEEN = np.array([(0, 4), (1, 5), (2, 6), (3, 7)])
 AROUND = np.array([*PLANES, *BEFORE_EYE]) + np.array([[0.0, 0.0, 0.0, 1.5]] * 6 + [[0.0] * 4])
 """Planes of a larger cube: so much of what is outside is drawn in device space."""
 MOST_POLYGONS = 800
-SMOOTH = 2500
+SMOOTH = 1000
 """So many lines are drawn smoothly."""
 CROWD = 400
 """Of more lines each is drawn fainter, so that they stay lines."""

@@ -16,21 +16,22 @@ if TYPE_CHECKING:
     from ...model.solid.display import DisplayMesh
 
 Floats = NDArray[np.float64]
-MOST_LINES = 5000
+MOST_LINES = 4000
 """Of a wire-frame; of more a sample is drawn."""
+MOST_SEARCHED = 50_000
+"""Triangles between which edges are looked for; of more the sides of some are drawn."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Geometry:
     """`points` (n, 3) of the world, `triangles` (t, 3); `lines` (e, 2, 3) between flat faces, `line_triangles` (e,)
-    each with one of its triangles, `total` how many there are of which these are a sample."""
+    each with one of its triangles; a sample of them where there are many."""
 
     meshes: tuple[DisplayMesh, ...]
     points: Floats
     triangles: NDArray[np.int64]
     lines: Floats
     line_triangles: NDArray[np.int64]
-    total: int
 
     @property
     def bounds(self) -> Floats | None:
@@ -52,12 +53,18 @@ def geometry_of(meshes: Sequence[DisplayMesh]) -> Geometry:
     starts = np.cumsum([0, *(int(mesh.facet.max(initial=-1)) + 1 for mesh in meshes)])
     facets = [mesh.facet + start for mesh, start in zip(meshes, starts, strict=False)]
     facet = np.concatenate([np.zeros(0, np.int64), *facets])
+    if len(triangles) > MOST_SEARCHED:
+        some = _sample(len(triangles), MOST_LINES // 3)
+        ends = np.stack((triangles[some], np.roll(triangles[some], -1, axis=1)), axis=2).reshape(-1, 2)
+        return Geometry(tuple(meshes), points, triangles, points[ends], np.repeat(some, 3))
     ends, triangle = _between_facets(triangles, facet, len(points))
-    total = len(ends)
-    if total > MOST_LINES:
-        some = np.linspace(0, total - 1, MOST_LINES).astype(np.int64)
-        ends, triangle = ends[some], triangle[some]
-    return Geometry(tuple(meshes), points, triangles, points[ends], triangle, total)
+    some = _sample(len(ends), MOST_LINES)
+    return Geometry(tuple(meshes), points, triangles, points[ends[some]], triangle[some])
+
+
+def _sample(count: int, most: int) -> NDArray[np.int64]:
+    """All of so many numbers, or `most` of them, evenly."""
+    return np.linspace(0, count - 1, min(count, most)).astype(np.int64)
 
 
 def _between_facets(

@@ -5,9 +5,16 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import QEvent, Qt, QTimer, Signal
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QMouseEvent
-from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QTableWidget, QTableWidgetItem, QWidget
+from PySide6.QtWidgets import (
+    QAbstractItemDelegate,
+    QAbstractItemView,
+    QHeaderView,
+    QTableWidget,
+    QTableWidgetItem,
+    QWidget,
+)
 
 from ...model.document.errors import Refusal
 from ...model.document.expression import Expression
@@ -46,6 +53,8 @@ class MatrixGrid(QTableWidget):
         self.setWordWrap(False)
         self.matrix: Floats = np.eye(4)
         self._filling = False
+        self._waiting: tuple[Floats, bool, Callable[[int, int], str]] | None = None
+        """What is to be shown when an entry is no longer being typed."""
         for row in range(4):
             for column in range(4):
                 item = QTableWidgetItem()
@@ -57,7 +66,9 @@ class MatrixGrid(QTableWidget):
     def show_matrix(self, matrix: Floats, changed: bool, words: Callable[[int, int], str]) -> None:
         """Show numbers, marked where they are `changed` here; `words` explains an entry."""
         if self.state() == QAbstractItemView.State.EditingState:
+            self._waiting = matrix, changed, words
             return
+        self._waiting = None
         self.matrix = matrix
         self._filling = True
         font = monospaced(self.font())
@@ -92,8 +103,13 @@ class MatrixGrid(QTableWidget):
             return
         matrix = self.matrix.copy()
         matrix[row, column] = value
-        self._put_back(item, old)  # until it has been taken
-        self.edited.emit(matrix)
+        self._put_back(item, old)  # until it has been taken, which is when the editor has gone
+        QTimer.singleShot(0, self, lambda: self.edited.emit(matrix))
+
+    def closeEditor(self, editor: QWidget, hint: QAbstractItemDelegate.EndEditHint) -> None:
+        super().closeEditor(editor, hint)
+        if self._waiting is not None:
+            self.show_matrix(*self._waiting)
 
     def _put_back(self, item: QTableWidgetItem, text: str) -> None:
         self._filling = True

@@ -17,8 +17,8 @@ MODES = (
     ("depth", "Depth", "What is in front at each pixel: the darker, the nearer"),
     ("layers", "Overdraw", "How many polygons cover each pixel: the darker, the more"),
 )
-MOST_SIDES = 12_000
-SMOOTH = 3000
+MOST_SIDES = 10_000
+SMOOTH = 2000
 MARGIN = 6.0  # pixels
 WAITING = "The pixels are worked out when the picture rests."
 NOTHING = "Nothing is shown: add a solid, or show one."
