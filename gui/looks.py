@@ -53,6 +53,8 @@ class Looks:
         self._window.actions_.refresh()
 
     def set_parallel(self, parallel: bool) -> None:
+        if parallel != self.parallel:
+            self.set_clipping(None)  # distances may be negative in a parallel projection alone
         self.parallel = parallel
         self._window.viewport.change(lambda viewer: viewer.set_projection(parallel))
         self._keep("parallel", parallel)

@@ -122,12 +122,17 @@ def _pipeline(window: MainWindow) -> None:
     tool = window.pipeline.tool
     window.docks["Pipeline"].visibilityChanged.connect(window.pipeline.set_in_front)
     tool.said.connect(window.status.set_hint)
+    others = (window.measure, window.sight, window.draw, window.face_plane, window.engrave)
+    for other in (*others, window.place_on_face, window.bsp.probe):
+        tool.began.connect(other.end)
+    for other in others:
+        other.began.connect(tool.end)
     tool.began.connect(lambda: window.handles.set_hidden(True))
     tool.ended.connect(lambda: window.handles.set_hidden(False))
-    tool.ended.connect(window.actions_.refresh)
-    window.files.opened.connect(tool.end)
-    for other in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
-        other.began.connect(tool.end)
+    for signal in (tool.began, tool.ended):
+        signal.connect(window.actions_.refresh)
+    window.files.opened.connect(window.pipeline.forget)
+    window.files.opened.connect(lambda: window.looks.set_clipping(None))
 
 
 def _editing(window: MainWindow) -> None:
@@ -179,7 +184,8 @@ def _surfaces(window: MainWindow) -> None:
         light.set_aside(True)
         window.handles.set_hidden(True)  # the end of the placement has shown them
 
-    for other in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+    tools = (window.measure, window.sight, window.draw, window.face_plane, window.engrave, window.pipeline.tool)
+    for other in tools:
         other.began.connect(give_way)
         other.ended.connect(lambda: light.set_aside(False))
     window.files.opened.connect(mapping.end)

@@ -101,6 +101,11 @@ def test_the_numbers_follow_the_camera_and_the_node(make_window):
     driver.session.do("move", [driver.node("Block").id], 0, 0, 7)
     driver.qtbot.waitUntil(lambda: stage(page, "World")[2] == 27)
     assert stage(page, "Model")[2] == 20
+    panel.page.pick.click()
+    driver.window.actions_.run("measure")
+    assert not panel.tool.active and driver.window.measure.active  # one tool has the clicks
+    panel.page.pick.click()
+    assert panel.tool.active and not driver.window.measure.active and not driver.window.actions_["measure"].isChecked()
     driver.session.do("delete", [driver.node("Block").id])
     driver.settle()
     driver.qtbot.waitUntil(lambda: panel.explorer.flow is None and not page.stages.stages)
@@ -108,6 +113,7 @@ def test_the_numbers_follow_the_camera_and_the_node(make_window):
     driver.settle()
     driver.keys("Alt+Shift+V", driver.window.viewport)
     driver.qtbot.waitUntil(lambda: not panel.in_front)
+    assert not panel.tool.active
     assert panel.tool.mark.point is None
 
 
@@ -231,6 +237,11 @@ def test_a_view_and_a_lens_are_applied_to_the_camera(make_window):
     driver.qtbot.mouseClick(page.frame.automatic, LEFT)
     driver.qtbot.waitUntil(lambda: not page.frame.automatic.isVisible())
     assert viewer.clipping is None and driver.window.looks.clipping is None
+    driver.window.looks.set_clipping((10.0, 2000.0))
+    page.frame.lens.tried.emit("angle", 70.0)
+    write(driver, page.point, "1, 2, 3")
+    driver.open(document_of(sphere(5, segments=16)))
+    assert viewer.clipping is None and not panel.explorer.trial.active and panel.explorer.subject is None
 
 
 def test_counts_are_those_of_the_picture_and_planes_can_be_switched_off(make_window):
@@ -248,8 +259,7 @@ def test_counts_are_those_of_the_picture_and_planes_can_be_switched_off(make_win
     assert rows["Triangles in"].replace("\u202f", "") == str(told.triangles)
     assert rows["Pixels covered"].replace("\u202f", "") == str(told.pixels)
     page.tabs.setCurrentIndex(0)
-    viewer_distance = viewer.camera.distance
-    panel.explorer._try_lens("near", viewer_distance)
+    write(driver, page.frame.lens.fields["near"], f"{viewer.camera.distance}")
     near = counted(driver, panel)
     assert near.cut > 0 and near.outside > 0 and panel.explorer.flow.cut
     brute = panel.explorer.flow
@@ -272,6 +282,10 @@ def test_culling_is_a_switch_of_the_view(make_window):
     assert viewer.scene.culling and driver.window.actions_["cull_back_faces"].isChecked()
     driver.qtbot.waitUntil(lambda: panel.explorer.flow.cull and panel.explorer.flow.result is not None)
     culled = panel.explorer.flow.result.counts
+    driver.qtbot.mouseClick(page.floating, LEFT)
+    assert driver.window.docks["Pipeline"].isFloating() and page.isVisible()
+    driver.qtbot.mouseClick(page.floating, LEFT)
+    assert not driver.window.docks["Pipeline"].isFloating() and not page.floating.isChecked()
     # Three faces of a box are turned towards the eye, in the isometric view.
     assert (culled.away, culled.polygons, culled.overdraw) == (6, 6, 1.0) and culled.pixels == whole.pixels
     driver.window.looks.set_translucent(True)

@@ -34,9 +34,6 @@ def _panel(window: MainWindow) -> None:
 
 def _follow(window: MainWindow) -> None:
     _show(window)
-    if not window.pipeline.tool.active:
-        for tool in (window.measure, window.sight, window.place_on_face, window.draw, window.engrave):
-            tool.end()
     window.pipeline.toggle_pick()
 
 

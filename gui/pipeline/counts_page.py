@@ -20,7 +20,7 @@ STEPS = (
     ("Vertices in", "vertices", "Each is multiplied by the matrices once"),
     ("Triangles in", "triangles", "Of all solids that are shown"),
     ("Outside", "outside", "Wholly outside the frustum: nothing of them is left"),
-    ("Facing away", "away", "Culled: on the screen their corners run clockwise"),
+    ("Facing away", "away", "With back-face culling: on the screen their corners run clockwise"),
     ("Polygons drawn", "polygons", "What is left goes on"),
     ("\u2026 cut by a plane", "cut", "Of these, the clipping planes have cut so many"),
     ("\u2026 their corners", "corners", "Cutting gives a polygon more corners than three, or fewer"),
@@ -51,12 +51,14 @@ class CountsPage(QWidget):
         self.table.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.table.horizontalHeader().setSectionResizeMode(0, QHeaderView.ResizeMode.Stretch)
         self.table.horizontalHeader().setSectionResizeMode(1, QHeaderView.ResizeMode.ResizeToContents)
+        self._values: list[QTableWidgetItem] = []
         for row, (title, _, tip) in enumerate(STEPS):
             for column, text in enumerate((title, "")):
                 item = QTableWidgetItem(text)
                 item.setToolTip(tip)
                 if column:
                     item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
+                    self._values.append(item)
                 self.table.setItem(row, column, item)
         self.words = QLabel(WAITING, self)
         self.words.setProperty("muted", True)
@@ -74,9 +76,9 @@ class CountsPage(QWidget):
             self.words.setText(WAITING)
             return
         self.counts = counts
-        for row, (_, name, _) in enumerate(STEPS):
+        for item, (_, name, _) in zip(self._values, STEPS, strict=True):
             value = getattr(counts, name)
-            self.table.item(row, 1).setText(f"{value:.3f}" if name == "overdraw" else figure(value, 12))
+            item.setText(f"{value:.3f}" if name == "overdraw" else figure(value, 12))
         width, height = counts.size
         share = 100.0 * counts.pixels / (width * height)
         self.words.setText(f"In a picture of {width} \u00d7 {height} pixels, {share:.1f} % of which are covered.")

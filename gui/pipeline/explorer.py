@@ -95,6 +95,12 @@ class PipelineExplorer(QObject):
         self.set_active(False)
         self._work.close()
 
+    def forget(self) -> None:
+        """Follow nothing and try nothing."""
+        self.follow_point(None)
+        if self.trial.active:
+            self.trial.reset()
+
     # The vertex.
 
     def follow_point(self, point: tuple[float, float, float] | None) -> None:

@@ -51,7 +51,7 @@ class Flow:
     @cached_property
     def back(self) -> Floats:
         """(4, 4) from clip coordinates to the world."""
-        return np.linalg.inv(self.matrices.projection @ self.matrices.view)
+        return np.asarray(np.linalg.inv(self.matrices.projection @ self.matrices.view), float)
 
     @cached_property
     def lines(self) -> Floats:

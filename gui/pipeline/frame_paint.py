@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from ...model.pipeline.clipping import PLANES, clipped_lines
+from ...model.pipeline.clipping import NAMES, PLANES, clipped_lines
 from ...model.pipeline.stages import divided
 from ..theme import colours_now
 from .flow import BEFORE_EYE, CUBE, Flow
@@ -103,9 +103,11 @@ class FramePainter:
             self._word(eye, "eye", self._inks.frustum, (-10.0, -12.0))
         for name, rim in RIMS.items():
             ink = getattr(self._inks, name)
-            self._draw(corners[rim], ink, 2.0)
-            if eye is None or self._apart(corners[rim[2, 0]], eye):
-                self._word(corners[rim[2, 0]], name, ink, (4.0, -4.0))
+            off = not (flow.planes == PLANES[NAMES.index(name)]).all(axis=1).any()
+            self._draw(corners[rim], ink, 2.0, Qt.PenStyle.DotLine if off else Qt.PenStyle.SolidLine)
+            corner = corners[rim[0 if name == "near" else 2, 0]]
+            if eye is None or self._apart(corner, eye):
+                self._word(corner, name, ink, (-12.0, 15.0) if name == "near" else (4.0, -4.0))
 
     def _ray(self, flow: Flow) -> None:
         point = flow.clip_point
@@ -197,4 +199,9 @@ class FramePainter:
         place = self._place(point)
         if place is not None:
             self._painter.setPen(QColor(ink))
-            self._painter.drawText(place + QPointF(*aside), text)
+            x, y = place.x() + aside[0], place.y() + aside[1]
+            if 0.0 <= place.x() <= self._view.width() and 0.0 <= place.y() <= self._view.height():
+                wide = self._painter.fontMetrics().horizontalAdvance(text)
+                x = min(max(x, 2.0), self._view.width() - wide - 2.0)
+                y = min(max(y, 12.0), self._view.height() - 4.0)
+            self._painter.drawText(QPointF(x, y), text)

@@ -55,11 +55,13 @@ class MatrixGrid(QTableWidget):
         self._filling = False
         self._waiting: tuple[Floats, bool, Callable[[int, int], str]] | None = None
         """What is to be shown when an entry is no longer being typed."""
+        self._items: dict[tuple[int, int], QTableWidgetItem] = {}
         for row in range(4):
             for column in range(4):
                 item = QTableWidgetItem()
                 item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
                 self.setItem(row, column, item)
+                self._items[row, column] = item
         self.itemChanged.connect(self._typed)
         self.currentCellChanged.connect(lambda row, column, *_: self.pointed.emit(row, column))
 
@@ -74,16 +76,14 @@ class MatrixGrid(QTableWidget):
         font = monospaced(self.font())
         font.setBold(changed)
         ink = QColor(colours_now().link if changed else colours_now().text)
-        for row in range(4):
-            for column in range(4):
-                item = self.item(row, column)
-                text = number(float(matrix[row, column]))
-                if item.text() != text:
-                    item.setText(text)
-                if item.font() != font or item.foreground().color() != ink:
-                    item.setFont(font)
-                    item.setForeground(ink)
-                item.setToolTip(words(row, column))
+        for (row, column), item in self._items.items():
+            text = number(float(matrix[row, column]))
+            if item.text() != text:
+                item.setText(text)
+            if item.font() != font or item.foreground().color() != ink:
+                item.setFont(font)
+                item.setForeground(ink)
+            item.setToolTip(words(row, column))
         self._filling = False
 
     def _typed(self, item: QTableWidgetItem) -> None:

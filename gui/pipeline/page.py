@@ -46,6 +46,7 @@ class PipelinePage(QWidget):
     vertex_chosen = Signal(int, int)
     pick_asked = Signal(bool)
     reset_asked = Signal()
+    float_asked = Signal(bool)
     cull_asked = Signal(bool)
     refused = Signal(str)
 
@@ -58,6 +59,13 @@ class PipelinePage(QWidget):
         self.pick.setToolTip("Click a corner in the picture")
         self.pick.setAccessibleName(self.pick.toolTip())
         self.pick.clicked.connect(self.pick_asked)
+        self.floating = QToolButton(self)
+        self.floating.setProperty("flat", True)
+        self.floating.setCheckable(True)
+        self.floating.setIcon(icon("float"))
+        self.floating.setToolTip("Let the panel float beside the picture, or put it back")
+        self.floating.setAccessibleName(self.floating.toolTip())
+        self.floating.clicked.connect(self.float_asked)
         self.point = TextLine(self)
         self.point.setPlaceholderText("x, y, z in mm")
         self.point.setAccessibleName("The followed point")
@@ -103,7 +111,7 @@ class PipelinePage(QWidget):
         bar = QHBoxLayout()
         bar.setContentsMargins(8, 6, 8, 6)
         bar.setSpacing(4)
-        for widget, stretch in ((self.pick, 0), (self.point, 3), (self.solid, 2), (self.vertex, 1)):
+        for widget, stretch in ((self.pick, 0), (self.point, 3), (self.solid, 2), (self.vertex, 1), (self.floating, 0)):
             bar.addWidget(widget, stretch)
         trial = QHBoxLayout(self.state)
         trial.setContentsMargins(8, 4, 8, 4)

@@ -43,6 +43,12 @@ class PipelinePanel(QWidget):
         self._make()
         self.tool.end() if self.tool.active else self.tool.start()
 
+    def forget(self) -> None:
+        """Another document is open: nothing is followed and nothing tried any more."""
+        self.tool.end()
+        if self.explorer is not None:
+            self.explorer.forget()
+
     def close_work(self) -> None:
         """End what is under way in a thread, before the window goes."""
         if self.explorer is not None:
@@ -57,6 +63,9 @@ class PipelinePanel(QWidget):
         self.page = PipelinePage(self)
         self.explorer = PipelineExplorer(self._window, self.page, self.tool, self)
         self.explorer.refused.connect(self.refused)
+        dock = self._window.docks["Pipeline"]
+        self.page.float_asked.connect(dock.setFloating)
+        dock.topLevelChanged.connect(self.page.floating.setChecked)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(self.page)
@@ -65,4 +74,8 @@ class PipelinePanel(QWidget):
 def let_float(dock: QDockWidget) -> None:
     """A dock among tabs has no title of its own; it gets one while it floats, so that it can be moved and put back."""
     dock.setFeatures(dock.features() | QDockWidget.DockWidgetFeature.DockWidgetFloatable)
-    dock.topLevelChanged.connect(lambda floats: dock.setTitleBarWidget(None if floats else QWidget(dock)))
+
+    def title(floats: bool) -> None:
+        dock.setTitleBarWidget(None if floats else QWidget(dock))  # type: ignore[arg-type]
+
+    dock.topLevelChanged.connect(title)

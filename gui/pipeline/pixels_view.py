@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 from PySide6.QtCore import QEvent, QLineF, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
@@ -14,8 +15,8 @@ from .inks import inks_now
 
 MODES = (
     ("wires", "Wire-frame", "The sides of the polygons that are drawn"),
-    ("depth", "Depth", "What is in front at each pixel: the darker, the nearer"),
-    ("layers", "Overdraw", "How many polygons cover each pixel: the darker, the more"),
+    ("depth", "Depth", "What is in front at each pixel: the stronger, the nearer"),
+    ("layers", "Overdraw", "How many polygons cover each pixel: the stronger, the more"),
 )
 MOST_SIDES = 10_000
 SMOOTH = 2000
@@ -152,7 +153,7 @@ class PixelsView(QWidget):
             low, high = (float(depths.min()), float(depths.max())) if len(depths) else (0.0, 1.0)
             share = 1.0 - 0.85 * (raster.depth - low) / max(high - low, 1e-12)
         share = np.where(covered, np.clip(share, 0.0, 1.0), 0.0)[..., None]
-        ground, ink = (np.array(QColor(name).getRgb()[:3], float) for name in (colours_now().ground, _tone(self.mode)))
+        ground, ink = _rgb(colours_now().ground), _rgb(inks_now().inside if self.mode == "depth" else inks_now().cut)
         pixels = np.ascontiguousarray(np.round(ground + share * (ink - ground)).astype(np.uint8))
         height, width = pixels.shape[:2]
         return QImage(pixels.data, width, height, 3 * width, QImage.Format.Format_RGB888).copy()
@@ -168,8 +169,9 @@ class PixelsView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, True)
         painter.setPen(QPen(QColor(inks_now().ray), 2.0))
         for way in (QPointF(1.0, 0.0), QPointF(-1.0, 0.0), QPointF(0.0, 1.0), QPointF(0.0, -1.0)):
-            painter.drawLine(place + 2.5 * way, place + 8.0 * way)
+            painter.drawLine(place + way * 2.5, place + way * 8.0)
 
 
-def _tone(mode: str) -> str:
-    return inks_now().inside if mode == "depth" else inks_now().cut
+def _rgb(name: str) -> NDArray[np.float64]:
+    colour = QColor(name)
+    return np.array([colour.red(), colour.green(), colour.blue()], float)

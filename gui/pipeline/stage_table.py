@@ -16,6 +16,8 @@ from .matrix_grid import monospaced
 TITLES = ("", "x", "y", "z", "w")
 ROW = 22  # pixels
 PIXEL = "Pixel"
+FIRST = 3
+"""The row that is chosen at first: clip coordinates, where it is decided what is seen."""
 
 
 class StageTable(QTableWidget):
@@ -26,6 +28,7 @@ class StageTable(QTableWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(0, len(TITLES), parent)
         self.stages: Sequence[Stage] = ()
+        self._items: dict[tuple[int, int], QTableWidgetItem] = {}
         self.setAccessibleName("The vertex at each stage")
         self.setHorizontalHeaderLabels(TITLES)
         self.verticalHeader().hide()
@@ -52,6 +55,7 @@ class StageTable(QTableWidget):
         self.setVisible(bool(stages))
         if self.rowCount() != len(stages):
             self.setRowCount(len(stages))
+            self._items.clear()
             for row in range(len(stages)):
                 for column in range(len(TITLES)):
                     item = QTableWidgetItem()
@@ -59,12 +63,15 @@ class StageTable(QTableWidget):
                         item.setFont(monospaced(self.font()))
                         item.setTextAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
                     self.setItem(row, column, item)
+                    self._items[row, column] = item
+            if stages:
+                self.selectRow(FIRST)
             self.setFixedHeight(ROW * len(stages) + self.horizontalHeader().sizeHint().height() + 3)
         ink = QColor(inks_now().ray)
         for row, stage in enumerate(stages):
             texts = [stage.name, *(_text(stage, value) for value in stage.coordinates)]
             for column, text in enumerate(texts + [""] * (len(TITLES) - len(texts))):
-                item = self.item(row, column)
+                item = self._items[row, column]
                 if item.text() != text:
                     item.setText(text)
                 if stage.name == PIXEL and item.foreground().color() != ink:
@@ -72,16 +79,16 @@ class StageTable(QTableWidget):
                 item.setToolTip(stage.words)
 
     @property
-    def row(self) -> int:
+    def place(self) -> int:
         """The chosen row, -1 for none."""
         rows = self.selectionModel().selectedRows()
         return rows[0].row() if rows else -1
 
     def words(self) -> str:
         """What the chosen row is, with its formulas; of none what there is to see."""
-        if not 0 <= self.row < len(self.stages):
+        if not 0 <= self.place < len(self.stages):
             return "Choose a stage to see how its numbers come about."
-        stage = self.stages[self.row]
+        stage = self.stages[self.place]
         formulas = "<br>".join(f"<code>{escape(formula)}</code>" for formula in stage.formulas)
         return f"<b>{stage.name}</b>: {escape(stage.words)}." + (f"<br>{formulas}" if formulas else "")
 

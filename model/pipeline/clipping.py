@@ -36,7 +36,7 @@ def clipped(triangles: Floats, planes: Floats = PLANES) -> Polygons:
     corners = np.asarray(triangles, float)
     counts = np.full(len(corners), corners.shape[1], np.int64)
     within = corners @ planes.T >= 0.0  # (n, k, p)
-    whole, gone = within.all(axis=(1, 2)), (~within).all(axis=1).any(axis=1)
+    whole, gone = np.all(within, axis=(1, 2)), np.any(np.all(~within, axis=1), axis=1)
     torn = np.flatnonzero(~whole & ~gone)
     some, some_counts = corners[torn], counts[torn]
     for plane in planes:
@@ -121,7 +121,7 @@ def drawn(clip: Floats, triangles: NDArray[np.integer], cull: bool = True, plane
     """What is drawn of triangles (t, 3) over points with clip coordinates (n, 4): cut off at planes (p, 4), and with
     `cull` without those that face away."""
     corners = clip[np.asarray(triangles)]
-    within = (corners @ planes.T >= 0.0).all(axis=(1, 2))
+    within = np.all(corners @ planes.T >= 0.0, axis=(1, 2))
     polygons = clipped(corners, planes)
     left = polygons.counts >= 3
     facing = front_facing(polygons)

@@ -48,7 +48,7 @@ def way_of(matrices: Matrices, point: Floats) -> tuple[Stage, ...]:
     seen = "inside all six planes: it is seen" if not beyond else f"outside the {_list(beyond)}: it is clipped"
     behind = "; the eye has it behind itself: w is not above 0" if clip[3] <= 0.0 else ""
     return (
-        Stage("Model", _tuple(own[:3]), (), "in the axes of the node that made it, in mm"),
+        Stage("Model", _tuple(own[:3]), (), "in the model's own axes, in mm"),
         Stage("World", _tuple(world[:3]), _rows(matrices.model, own, 3), "in the document's axes, in mm"),
         Stage("Eye", _tuple(eye[:3]), _rows(matrices.view, world, 3),
               "x to the right, y up, z backward: what is seen has z below 0"),
