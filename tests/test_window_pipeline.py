@@ -322,4 +322,7 @@ def test_the_second_view_turns_zooms_and_shows_the_cube(make_window):
         assert page.pixels.grab().toImage() != wires
     frame = page.pixels.frame
     assert "1 fragment" in page.pixels._words(frame.center()) or "2 fragments" in page.pixels._words(frame.center())
+    driver.qtbot.mouseClick(page.pixels, LEFT, pos=frame.center().toPoint())
+    front = driver.window.viewport.viewer.pick(*(side / 2 for side in driver.window.viewport.viewer.size)).point
+    np.testing.assert_allclose(stage(page, "World"), front, atol=0.2)  # within a pixel of the middle
     assert "background" in page.pixels._words(frame.topLeft() + QPoint(1, 1))

@@ -65,6 +65,7 @@ class PipelineExplorer(QObject):
         tool.ended.connect(lambda: page.pick.setChecked(False))
         page.pick_asked.connect(lambda wanted: tool.start() if wanted else tool.end())
         page.point_typed.connect(self.follow_point)
+        page.pixels.clicked.connect(self.follow_point)
         page.vertex_chosen.connect(self._vertex_chosen)
         page.refused.connect(self.refused)
         page.reset_asked.connect(self.trial.reset)
@@ -211,9 +212,13 @@ class PipelineExplorer(QObject):
             if "model" in self.trial.matrices and self.subject.path:
                 geometry = geometry.moved(self.subject.path, matrices.model @ np.linalg.inv(live.model))
         size = max(round(viewer.size[0]), 1), max(round(viewer.size[1]), 1)
-        self._show(Flow(matrices, geometry, size, self.trial.planes, self._window.looks.culling, point))
-        self._page.counts.show_counts(None)
-        self._rest.start(REST)
+        flow = Flow(matrices, geometry, size, self.trial.planes, self._window.looks.culling, point)
+        if self.flow is not None and self.flow.draws_as(flow):
+            flow.result = self.flow.result
+        self._show(flow)
+        if flow.result is None:
+            self._page.counts.show_counts(None)
+            self._rest.start(REST)
 
     def _show(self, flow: Flow | None) -> None:
         self.flow = flow

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ...model.pipeline.clipping import Drawn, clipped_lines, drawn
+from ...model.pipeline.matrices import NAMES
 from ...model.pipeline.stages import divided
 
 if TYPE_CHECKING:
@@ -37,6 +38,17 @@ class Flow:
     cull: bool
     point: Floats | None = None
     result: Result | None = None
+
+    def draws_as(self, other: Flow) -> bool:
+        """Whether another state draws the same picture, whatever point it follows."""
+        names = NAMES[1:]  # the model matrix is in the geometry
+        same = all(np.array_equal(getattr(self.matrices, name), getattr(other.matrices, name)) for name in names)
+        return (
+            same
+            and self.geometry is other.geometry
+            and (self.size, self.cull) == (other.size, other.cull)
+            and np.array_equal(self.planes, other.planes)
+        )
 
     @cached_property
     def drawn(self) -> Drawn | None:

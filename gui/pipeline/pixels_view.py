@@ -26,13 +26,16 @@ NOTHING = "Nothing is shown: add a solid, or show one."
 
 
 class PixelsView(QWidget):
-    """`pointed` carries words on the pixel under the pointer, "" for none."""
+    """`pointed` carries words on the pixel under the pointer, "" for none; `clicked` the point (x, y, z) of the world
+    that is in front at a pixel."""
 
     pointed = Signal(str)
+    clicked = Signal(object)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setAccessibleName("What the panel's own pipeline draws")
+        self.setToolTip("Point at a pixel for its fragments; a click follows what is in front there")
         self.setMouseTracking(True)
         self.setMinimumSize(180, 120)
         self.flow: Flow | None = None
@@ -71,19 +74,31 @@ class PixelsView(QWidget):
     def leaveEvent(self, event: QEvent) -> None:
         self.pointed.emit("")
 
-    def _words(self, place: QPointF) -> str:
-        if self.flow is None or not self.frame.contains(place):
-            return ""
+    def mousePressEvent(self, event: QMouseEvent) -> None:
+        found = self._at(event.position()) if event.button() == Qt.MouseButton.LeftButton else None
+        if found is not None and self.flow is not None and found[2]:
+            column, row, _, depth = found
+            point = self.flow.matrices.unprojected([(column + 0.5, row + 0.5, depth)])[0]
+            self.clicked.emit(tuple(point.tolist()))
+
+    def _at(self, place: QPointF) -> tuple[int, int, int, float] | None:
+        """Column and row of the pixel at a place of the widget, its fragments, and the depth of the nearest; None
+        outside, and while that is worked out."""
+        if self.flow is None or self.flow.result is None or not self.frame.contains(place):
+            return None
         x, y = self.to_pixel(place)
-        result = self.flow.result
-        words = f"Pixel {int(x)}, {int(y)}"
-        if result is None:
-            return words
         row, column = min(int(y), self.flow.size[1] - 1), min(int(x), self.flow.size[0] - 1)
-        layers = int(result.raster.layers[row, column])
+        raster = self.flow.result.raster
+        return column, row, int(raster.layers[row, column]), float(raster.depth[row, column])
+
+    def _words(self, place: QPointF) -> str:
+        found = self._at(place)
+        if found is None:
+            return ""
+        column, row, layers, depth = found
+        words = f"Pixel {column}, {row}"
         if not layers:
             return f"{words}: background"
-        depth = float(result.raster.depth[row, column])
         return f"{words}: {layers} {'fragment' if layers == 1 else 'fragments'}, the nearest at depth {depth:.5f}"
 
     def paintEvent(self, event: QPaintEvent) -> None:
