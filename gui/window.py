@@ -45,6 +45,7 @@ from .panels.script_log import ScriptLog
 from .panels.sections import Sections
 from .parameters.parameters import Parameters
 from .partition.panel import BspPanel
+from .pipeline.panel import PipelinePanel, let_float
 from .settings import LAYOUT_VERSION, Settings
 from .side_windows import SideWindows
 from .status import StatusBar, shown_solids
@@ -185,6 +186,7 @@ class MainWindow(QMainWindow):
         self.script = ScriptLog(self.session, self)
         self.bsp = BspPanel(self)
         self.surfaces = SurfacesPanel(self)
+        self.pipeline = PipelinePanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -205,6 +207,7 @@ class MainWindow(QMainWindow):
                 "Parameters": self.parameters,
                 "BSP": self.bsp,
                 "Surfaces": self.surfaces,
+                "Pipeline": self.pipeline,
             },
             bottom={
                 "Problems": self.problems,
@@ -214,6 +217,8 @@ class MainWindow(QMainWindow):
             },
         )
         self.docks["Surfaces"].hide()
+        self.docks["Pipeline"].hide()
+        let_float(self.docks["Pipeline"])
 
     # What happens.
 
@@ -361,6 +366,7 @@ class MainWindow(QMainWindow):
         self._unlisten()
         self.files.background.close()
         self.hidden_surfaces.close()
+        self.pipeline.close_work()
         self.evaluation.close()
         self.viewport.close_viewer()
         super().closeEvent(event)

@@ -32,6 +32,7 @@ def connect(window: MainWindow) -> None:
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
+    _pipeline(window)
     window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
     window.docks["Curve"].visibilityChanged.connect(window.actions_.refresh)
     window.curve_panel.seen.connect(window.joints_page.set_seen)
@@ -57,6 +58,7 @@ def _words(window: MainWindow) -> None:
         window.bsp,
         window.curve,
         window.surfaces,
+        window.pipeline,
         window.light_tool,
         window.mapping_tool,
     ):
@@ -116,6 +118,23 @@ def _measuring(window: MainWindow) -> None:
     window.files.opened.connect(tool.end)
 
 
+def _pipeline(window: MainWindow) -> None:
+    tool = window.pipeline.tool
+    window.docks["Pipeline"].visibilityChanged.connect(window.pipeline.set_in_front)
+    tool.said.connect(window.status.set_hint)
+    others = (window.measure, window.sight, window.draw, window.face_plane, window.engrave)
+    for other in (*others, window.place_on_face, window.bsp.probe):
+        tool.began.connect(other.end)
+    for other in others:
+        other.began.connect(tool.end)
+    tool.began.connect(lambda: window.handles.set_hidden(True))
+    tool.ended.connect(lambda: window.handles.set_hidden(False))
+    for signal in (tool.began, tool.ended):
+        signal.connect(window.actions_.refresh)
+    window.files.opened.connect(window.pipeline.forget)
+    window.files.opened.connect(lambda: window.looks.set_clipping(None))
+
+
 def _editing(window: MainWindow) -> None:
     """The nodes of the outline that is edited, and what can be done to them."""
     tool = window.edit_tool
@@ -165,7 +184,8 @@ def _surfaces(window: MainWindow) -> None:
         light.set_aside(True)
         window.handles.set_hidden(True)  # the end of the placement has shown them
 
-    for other in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+    tools = (window.measure, window.sight, window.draw, window.face_plane, window.engrave, window.pipeline.tool)
+    for other in tools:
         other.began.connect(give_way)
         other.ended.connect(lambda: light.set_aside(False))
     window.files.opened.connect(mapping.end)

@@ -11,7 +11,19 @@ from __future__ import annotations
 
 from .document.document import Document
 from .document.errors import Refusal
-from .scripting import documents, faults, fonts, hidden_surfaces, joining, letters, proximity, shapes, sight, surfaces
+from .scripting import (
+    documents,
+    faults,
+    fonts,
+    hidden_surfaces,
+    joining,
+    letters,
+    pipelines,
+    proximity,
+    shapes,
+    sight,
+    surfaces,
+)
 from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
 from .scripting.faults import *  # noqa: F403
@@ -20,6 +32,7 @@ from .scripting.hidden_surfaces import *  # noqa: F403
 from .scripting.joining import *  # noqa: F403
 from .scripting.letters import *  # noqa: F403
 from .scripting.outlines import *  # noqa: F403
+from .scripting.pipelines import *  # noqa: F403
 from .scripting.proximity import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
@@ -36,4 +49,5 @@ __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__
 __all__ += surfaces.__all__
 __all__ += faults.__all__
+__all__ += pipelines.__all__
 __all__ += proximity.__all__

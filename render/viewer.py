@@ -52,6 +52,7 @@ class Viewer:
         self.camera = standard_view(Camera(), "iso")
         self.size = (300.0, 200.0)
         self.scale = 1.0
+        self.clipping: tuple[float, float] | None = None
         self.needs_render = True
         self.changed_camera: Callable[[Camera], None] | None = None
         self._picker = Picker()
@@ -82,6 +83,9 @@ class Viewer:
         self.scene.before_render(self.camera, self.ground.height)
         bounds = union(union(self.scene.visible_bounds(), self.ground.bounds), self.ghosts.bounds)
         camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
+        if self.clipping is not None:
+            shift = self.renderer.GetActiveCamera().GetDistance() - self.camera.distance
+            self.renderer.GetActiveCamera().SetClippingRange(*(distance + shift for distance in self.clipping))
         self.overlay.before_render(self.camera, self.size, self.scale)
         self.cube.turn(self.camera)
         if self._software is None or self._peeling != self.scene.peeling:
@@ -181,6 +185,19 @@ class Viewer:
     def set_painted(self, count: int | None) -> None:
         """Draw only the first `count` fragments of the painter's order, None for all."""
         self.scene.painter.count = count
+        self.needs_render = True
+
+    def set_culling(self, culling: bool) -> None:
+        """See `Scene.set_culling`."""
+        self.scene.set_culling(culling)
+        self.needs_render = True
+
+    def set_clipping(self, clipping: tuple[float, float] | None) -> None:
+        """Show only what lies between two distances before the eye, in mm; None for all that is there. In perspective
+        the first one is above 0; ValueError for distances in the wrong order."""
+        if clipping is not None and not (clipping[0] < clipping[1] and (self.camera.parallel or clipping[0] > 0.0)):
+            raise ValueError(f"near and far planes cannot stand at {clipping}")
+        self.clipping = clipping
         self.needs_render = True
 
     def set_ground(self, visible: bool) -> None:

@@ -19,6 +19,7 @@ from .measure import MEASURE_COMMANDS
 from .nodes import NODE_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
+from .pipeline import PIPELINE_COMMANDS
 from .relief import RELIEF_COMMANDS
 from .sections import SECTION_COMMANDS
 from .sight import SIGHT_COMMANDS
@@ -47,6 +48,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (VIEW_COMMANDS, window),
         (HIDDEN_SURFACE_COMMANDS, window),
         (PARTITION_COMMANDS, window),
+        (PIPELINE_COMMANDS, window),
         (SECTION_COMMANDS, window),
         (HANDLE_COMMANDS, window),
         (MEASURE_COMMANDS, window),
