@@ -26,7 +26,7 @@ from ..panels.property_edit import sentence
 from ..panels.text_line import TextLine
 from ..partition.model_page import point_from
 from .counts_page import CountsPage
-from .frame_page import FramePage
+from .frustum.frustum_page import FrustumPage
 from .inks import inks_now
 from .matrices_page import MatricesPage
 from .pixels_view import MODES, PixelsView
@@ -95,7 +95,7 @@ class PipelinePage(QWidget):
         self.reset = QPushButton("Reset all", self.state)
         self.reset.setToolTip("The matrices and planes of the picture again")
         self.reset.clicked.connect(self.reset_asked)
-        self.frame = FramePage(self)
+        self.frame = FrustumPage(self)
         self.matrices = MatricesPage(self)
         self.matrices.refused.connect(self.refused)
         self.frame.lens.refused.connect(self.refused)

@@ -5,13 +5,13 @@ from __future__ import annotations
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
-from ...model.document.errors import Refusal
-from ...model.document.expression import Expression
-from ...model.document.expression import number as number_from
-from ...model.pipeline.matrices import Lens
-from ..panels.number_field import NumberField, Steps
-from ..panels.property_edit import sentence
-from ..parameters.value_slider import ValueSlider
+from ....model.document.errors import Refusal
+from ....model.document.expression import Expression
+from ....model.document.expression import number as number_from
+from ....model.pipeline.matrices import Lens
+from ...panels.number_field import NumberField, Steps
+from ...panels.property_edit import sentence
+from ...parameters.value_slider import ValueSlider
 
 ROWS = (
     ("angle", "Angle", "The full vertical angle of the perspective, in degrees"),

@@ -9,14 +9,14 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from ...model.pipeline.clipping import NAMES, PLANES, clipped_lines
-from ...model.pipeline.stages import divided
-from ..theme import colours_now
-from .flow import BEFORE_EYE, CUBE, Flow
-from .inks import inks_now
+from ....model.pipeline.clipping import NAMES, PLANES, clipped_lines
+from ....model.pipeline.stages import divided
+from ...theme import colours_now
+from ..flow import BEFORE_EYE, CUBE, Flow
+from ..inks import inks_now
 
 if TYPE_CHECKING:
-    from .frame_view import FrameView
+    from .frustum_view import FrustumView
 
 Floats = NDArray[np.float64]
 SIDES = np.array([(0, 1), (1, 2), (2, 3), (3, 0)])
@@ -39,10 +39,10 @@ def device_axes(points: Floats) -> Floats:
     return points[..., [0, 2, 1]]
 
 
-class FramePainter:
+class FrustumPainter:
     """Paints one picture."""
 
-    def __init__(self, view: FrameView, painter: QPainter) -> None:
+    def __init__(self, view: FrustumView, painter: QPainter) -> None:
         self._view, self._painter = view, painter
         self._inks, self._colours = inks_now(), colours_now()
 

@@ -15,10 +15,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ...model.pipeline.clipping import NAMES as PLANES
-from ..icons import icon
-from .frame_view import FrameView
-from .inks import inks_now
+from ....model.pipeline.clipping import NAMES as PLANES
+from ...icons import icon
+from ..inks import inks_now
+from .frustum_view import FrustumView
 from .lens_rows import LensRows
 
 SPACES = (
@@ -27,7 +27,7 @@ SPACES = (
 )
 
 
-class FramePage(QWidget):
+class FrustumPage(QWidget):
     """`plane_switched` carries a plane's name and whether it clips."""
 
     plane_switched = Signal(str, bool)
@@ -35,7 +35,7 @@ class FramePage(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.view = FrameView(self)
+        self.view = FrustumView(self)
         self.space = QComboBox(self)
         self.space.setAccessibleName("Space that is shown")
         for place, (title, tip) in enumerate(SPACES):

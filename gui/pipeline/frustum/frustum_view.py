@@ -11,10 +11,10 @@ from PySide6.QtCore import QEvent, QPointF, Qt
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter, QPaintEvent, QResizeEvent, QWheelEvent
 from PySide6.QtWidgets import QWidget
 
-from ...render.camera import Camera, frame, orbit, pan, project, vector_of, zoom
-from ...render.views import standard_view
-from .flow import CUBE, Flow
-from .frame_paint import FramePainter
+from ....render.camera import Camera, frame, orbit, pan, project, vector_of, zoom
+from ....render.views import standard_view
+from ..flow import CUBE, Flow
+from .frustum_paint import FrustumPainter
 
 Floats = NDArray[np.float64]
 TURN = 0.5  # degrees a pixel
@@ -29,7 +29,7 @@ ARROWS = {
 }
 
 
-class FrameView(QWidget):
+class FrustumView(QWidget):
     """Drawn with a parallel camera of its own. With `device` it shows the cube that the frustum becomes."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -178,5 +178,5 @@ class FrameView(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:
         painter = QPainter(self)
-        FramePainter(self, painter).paint()
+        FrustumPainter(self, painter).paint()
         painter.end()
