@@ -33,8 +33,9 @@ FINEST = 1e-4
 class NodeFaults:
     """What is wrong with a node: `kind` is "mesh" (as it came, before it becomes a solid), "solid" or "outline".
 
-    `matrix` (3, 4) maps the findings' places to the world: those of outlines are in the outline's own plane. Where
-    `faults` is None, `message` says why there is no report.
+    Vertices of a mesh's findings are numbered as in `mesh_of_node`. `matrix` (3, 4) maps the findings' places to the
+    world: those of outlines are in the outline's own plane. Where `faults` is None, `message` says why there is no
+    report.
     """
 
     id: str

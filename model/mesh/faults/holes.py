@@ -19,8 +19,11 @@ SAMPLE = 50
 KEY = 1 << 31
 
 
-def close_holes(vertices: ArrayLike, triangles: ArrayLike, longest: float | None = None) -> tuple[Floats, Numbers, str]:
-    """Borders filled with triangles that face as their neighbours do; with `longest` only those up to that length, mm.
+def close_holes(
+    vertices: ArrayLike, triangles: ArrayLike, longest: float | None = None, at: ArrayLike | None = None
+) -> tuple[Floats, Numbers, str]:
+    """Borders filled with triangles that face as their neighbours do: with `longest` only those up to that length, mm,
+    with `at` those that pass one of these vertices.
 
     Flat borders become flat faces, those within others holes of them. Of bent ones the least area is sought (Barequet
     and Sharir 1995); those of very many vertices are closed towards a new vertex in their middle. Left are borders that
@@ -32,6 +35,8 @@ def close_holes(vertices: ArrayLike, triangles: ArrayLike, longest: float | None
     faces = proper(faces)
     sides = sides_of(faces, len(points))
     loops, tangled = _loops(sides)
+    if at is not None:
+        loops, tangled = [loop for loop in loops if np.isin(loop, at).any()], 0
     lengths = [float(np.linalg.norm(points[loop] - np.roll(points[loop], 1, axis=0), axis=1).sum()) for loop in loops]
     short = [loop for loop, length in zip(loops, lengths, strict=True) if longest is None or length <= longest]
     sheets = _sheets(points, faces, shells(sides), short)

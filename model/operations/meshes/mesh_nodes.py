@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -133,6 +134,23 @@ def part_of(node: Node) -> Part:
         raise Refusal(f"“{node.label}”: its file holds {len(parts)} solids, not number {index}")
     part = parts[index]
     return part if unit == 1.0 else make_part("", None, part.vertices, part.triangles, unit=unit)
+
+
+def numbers_of(values: Iterable[int], count: int, what: str, label: str) -> Numbers:
+    """The numbers of vertices or faces, `what`, of `count` that a node has, each once. Raises Refusal for others."""
+    try:
+        rows = np.asarray(list(values) if not hasattr(values, "dtype") else values)
+    except TypeError:
+        raise Refusal(f"a {what} is told by its number, not {values!r:.60}") from None
+    if not rows.size:
+        raise Refusal(f"select what is to change of “{label}” first")
+    if rows.ndim != 1 or rows.dtype.kind not in "iu":
+        raise Refusal(f"a {what} is told by its number, not {values!r:.60}")
+    bad = np.flatnonzero((rows < 0) | (rows >= count))
+    if len(bad):
+        raise Refusal(f"“{label}” has no {what} {rows[bad[0]]}; there are {count:,}, counted from 0")
+    _, first = np.unique(rows, return_index=True)
+    return rows[np.sort(first)].astype(np.int64)
 
 
 def with_mesh(document: Document, node_id: str, vertices: Floats, triangles: NDArray[np.integer]) -> Document:
