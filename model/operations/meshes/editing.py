@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,10 +17,10 @@ from numpy.typing import ArrayLike
 from ...document.document import Document
 from ...document.errors import Refusal
 from ...document.tree import find
-from ...mesh.euler import EditedMesh
-from ...mesh.lists import of_triangles
-from ...mesh.winged import END, LEFT, RIGHT, START, WingedEdge, winged_edge
 from .mesh_nodes import Floats, NodeMesh, Numbers, mesh_of_node, numbers_of, with_mesh
+
+if TYPE_CHECKING:
+    from ...mesh.euler import EditedMesh
 
 Edge = Sequence[int]
 """The numbers of the two vertices that it joins."""
@@ -46,7 +47,7 @@ def flip_mesh_edge(document: Document, node_id: str, edge: Edge) -> Document:
     mesh, (a, b) = _with_edge(document, node_id, edge)
     faces = mesh.triangles
     near, number = _around(mesh, a, b)
-    _tried(lambda: EditedMesh(near).flip(number), number, a, b)
+    _tried(lambda: near.flip(number), number, a, b)
     one, two = _beside(faces, a, b).tolist()
     changed = faces.copy()
     changed[one] = np.where(faces[one] == a, _third(faces[two], a, b), faces[one])
@@ -66,7 +67,7 @@ def collapse_mesh_edge(document: Document, node_id: str, edge: Edge, at: float =
     mesh, (a, b) = _with_edge(document, node_id, edge)
     near, number = _around(mesh, a, b)
     point = _on(mesh.vertices, a, b, at, ends=True)
-    _tried(lambda: EditedMesh(near).collapse(number, point), number, a, b)
+    _tried(lambda: near.collapse(number, point), number, a, b)
     points = mesh.vertices.copy()
     points[a] = point
     faces = np.where(mesh.triangles == b, a, mesh.triangles)
@@ -126,9 +127,13 @@ def _with_edge(document: Document, node_id: str, edge: Edge) -> tuple[NodeMesh, 
     return mesh, (a, b)
 
 
-def _around(mesh: NodeMesh, a: int, b: int) -> tuple[WingedEdge, int]:
-    """The winged edge of what lies around an edge, far enough for its operators, and the edge's number in it; vertices
+def _around(mesh: NodeMesh, a: int, b: int) -> tuple[EditedMesh, int]:
+    """What lies around an edge, far enough for the operators to be tried on it, and the edge's number in it; vertices
     keep theirs. Raises Refusal where the surface is none there."""
+    from ...mesh.euler import EditedMesh
+    from ...mesh.lists import of_triangles
+    from ...mesh.winged import END, LEFT, RIGHT, START, winged_edge
+
     faces = mesh.triangles
     ring = np.zeros(len(mesh.vertices), bool)
     ring[[a, b]] = True
@@ -142,7 +147,7 @@ def _around(mesh: NodeMesh, a: int, b: int) -> tuple[WingedEdge, int]:
         beside = near.table[np.asarray(near.star(vertex))][:, [LEFT, RIGHT]]
         if len(np.setdiff1d(beside, [-1])) < int((faces == vertex).sum()):
             raise Refusal(f"surfaces meet in vertex {vertex} alone: there is more than one edge to follow")
-    return near, int(found[0])
+    return EditedMesh(near), int(found[0])
 
 
 def _tried(operator: Callable[[], object], number: int, a: int, b: int) -> None:

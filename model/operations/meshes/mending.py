@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...document.document import Document
 from ...document.errors import Refusal
 from ...document.tree import find
-from ...mesh.faults.holes import close_holes
-from ...mesh.faults.repair import REPAIRS, Repaired, mended, repaired
-from ...mesh.faults.report import Progress
+from ...mesh.faults.words import REPAIRS
 from .mesh_nodes import mesh_of_node, numbers_of, with_mesh
+
+if TYPE_CHECKING:
+    from ...mesh.faults.repair import Repaired
+    from ...mesh.faults.report import Progress
 
 Repairs = Collection[str] | str
 
@@ -29,6 +32,8 @@ def repair_mesh(
     The tolerance and the `longest` border that is filled are in mm of the world. The document stays as it is where
     there is nothing to repair. Raises Refusal.
     """
+    from ...mesh.faults.repair import mended
+
     mesh = mesh_of_node(document, node_id)
     before = mesh.in_world()
     try:
@@ -45,6 +50,8 @@ def close_mesh_holes(document: Document, node_id: str, vertices: Iterable[int]) 
 
     Raises Refusal where that closes nothing.
     """
+    from ...mesh.faults.holes import close_holes
+
     mesh, label = mesh_of_node(document, node_id), find(document, node_id).label
     rows = numbers_of(vertices, len(mesh.vertices), "vertex", label)
     points, faces, said = close_holes(mesh.vertices, mesh.triangles, at=rows)
@@ -65,4 +72,6 @@ def repair_of(
 
     Raises Refusal.
     """
+    from ...mesh.faults.repair import repaired
+
     return repaired(*mesh_of_node(document, node_id).in_world(), tolerance, repairs, longest, progress)

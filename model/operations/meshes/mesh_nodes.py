@@ -17,7 +17,6 @@ from ...document.outlines import is_outline
 from ...document.placement import Placement, inverse
 from ...document.primitives import ImportedMesh, Polyhedron
 from ...document.tree import change, find
-from ...mesh.faults.sides import distinct_places
 from ..curves.addressing import plain_values
 
 if TYPE_CHECKING:
@@ -53,6 +52,8 @@ class NodeMesh:
 
     def from_world(self, points: Floats, triangles: Numbers) -> tuple[Floats, Numbers]:
         """The way back of what was made of `in_world`: vertices that stayed come back to the very same coordinates."""
+        from ...mesh.faults.sides import distinct_places
+
         before, _ = self.in_world()
         _, first, which = np.unique(
             distinct_places(np.concatenate((before, points))), return_index=True, return_inverse=True
