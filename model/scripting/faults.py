@@ -41,8 +41,8 @@ def drawing_faults(outline: Node | str | os.PathLike[str], tolerance: float = 0.
 def repaired(
     solid: Node, repairs: Collection[str] | str | None = None, tolerance: float = 0.001, longest: float | None = None
 ) -> Node:
-    """A mesh after these repairs, by default all, within a tolerance in mm; `longest` is the longest border that is filled. Other
-    solids become meshes first. An outline takes "weld" and "cut" instead. Raises Refusal.
+    """A mesh after these repairs, by default all, within a tolerance in mm; `longest` is the longest border that is
+    filled. Other solids become meshes first. An outline takes "weld", the default, and "cut". Raises Refusal.
 
     >>> lidless = polyhedron([(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6)], [(0, 2, 1), (0, 1, 3), (1, 2, 3)])
     >>> round(measure(repaired(lidless)).volume, 9)
