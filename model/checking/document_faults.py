@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -145,6 +145,7 @@ def _of_outline(place: Place, tolerance: float, told: Progress | None) -> NodeFa
         if any(contour.dimension == 3 for contour in path.contours):
             return _none(place, "outline", "it leaves its plane: only what is flat is looked at")
         found = find_drawing_faults(segments_of(path, tolerance), tolerance, told)
+        found = replace(found, segments=sum(len(contour) for contour in path.contours))  # the user's, not the chords
         return NodeFaults(place.node.id, place.node.label, "outline", found, place.matrix)
     except Refusal as refusal:
         return _none(place, "outline", str(refusal))

@@ -59,9 +59,8 @@ def repaired(
         return repair_outline(document, root.id, ("weld",) if repairs is None else repairs, tolerance).standing[0]
     if not isinstance(root, MESHES):
         document = convert_to_mesh(document, root.id)
-    return repair_mesh(document, root.id, tuple(REPAIRS) if repairs is None else repairs, tolerance, longest).standing[
-        0
-    ]
+    wanted = tuple(REPAIRS) if repairs is None else repairs
+    return repair_mesh(document, root.id, wanted, tolerance, longest).standing[0]
 
 
 def _only(what: Node | str | os.PathLike[str], tolerance: float, kind: str) -> object:
