@@ -139,6 +139,19 @@ def test_faces_are_split_deleted_turned_and_moved(block):
         OPERATIONS["reverse_mesh_faces"](document, node_id, [12])
 
 
+def test_one_hole_of_two_is_closed(block):
+    document, node_id = block
+    mesh = mesh_of_node(document, node_id)
+    low = (mesh.vertices[mesh.triangles][:, :, 2] == 0).all(axis=1)
+    high = (mesh.vertices[mesh.triangles][:, :, 2] == 2).all(axis=1)
+    tube = OPERATIONS["delete_mesh_faces"](document, node_id, np.flatnonzero(low | high))
+    finding = document_faults(tube)[0].faults.findings[0]
+    after = OPERATIONS["close_mesh_holes"](tube, node_id, finding.vertices)
+    assert document_faults(tube)[0].faults.borders == 2 and document_faults(after)[0].faults.borders == 1
+    with pytest.raises(Refusal, match="no border"):
+        OPERATIONS["close_mesh_holes"](after, node_id, finding.vertices)
+
+
 def test_a_polyhedron_that_is_open_is_repaired_where_it_stands():
     document = document_of(box(9) + polyhedron(POINTS, FACES[:5]).scaled(-1, 1, 1).at(20, 0, 0))
     mesh = document.solids[0].children[1]

@@ -23,7 +23,7 @@ def test_ends_within_the_tolerance_are_joined_and_curves_stay_curves():
     assert contour.closed and sorted(contour.kinds.tolist()) == sorted([Kind.CUBIC, *[Kind.LINE] * 3])
     assert abs(curves.area()) == pytest.approx(50 + cubic_area(), abs=0.02)
     (report,) = document_faults(after)
-    assert report.faults.sound
+    assert report.faults.sound and str(report) == "4 lines: nothing found"
 
 
 def cubic_area():

@@ -84,7 +84,7 @@ def _chosen(document: Document, name: str | None) -> list[str] | None:
 def _mended(document: Document, ids: list[str], options: argparse.Namespace) -> tuple[Document, list[dict[str, Any]]]:
     """The document with its meshes and outlines mended, and for each node what was done and what is worse for it."""
     from ...model.document.outlines import is_outline
-    from ...model.mesh.faults.repair import REPAIRS
+    from ...model.mesh.faults.words import REPAIRS
     from ...model.operations.curves.mending import repair_outline
     from ...model.operations.meshes.mending import repair_mesh, repair_of
     from ...model.operations.meshes.mesh_nodes import MESHES

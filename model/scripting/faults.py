@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING
 
 from ..document.errors import Refusal
 from ..document.nodes import Node
+from ..mesh.faults.words import REPAIRS
 from .documents import document_of, open_document
 
 if TYPE_CHECKING:
     from ..checking.document_faults import NodeFaults
     from ..mesh.faults.drawings import DrawingFaults
     from ..mesh.faults.report import MeshFaults
-
-REPAIRS = ("weld", "duplicates", "slivers", "orient", "holes")
 
 
 def mesh_faults(solid: Node | str | os.PathLike[str], tolerance: float = 0.001) -> MeshFaults:
@@ -40,10 +39,10 @@ def drawing_faults(outline: Node | str | os.PathLike[str], tolerance: float = 0.
 
 
 def repaired(
-    solid: Node, repairs: Collection[str] | str = REPAIRS, tolerance: float = 0.001, longest: float | None = None
+    solid: Node, repairs: Collection[str] | str | None = None, tolerance: float = 0.001, longest: float | None = None
 ) -> Node:
-    """A mesh after these repairs, within a tolerance in mm; `longest` is the longest border that is filled. Other
-    solids become meshes first. An outline takes "weld" and "cut" instead. Raises Refusal.
+    """A mesh after these repairs, by default all, within a tolerance in mm; `longest` is the longest border that is
+    filled. Other solids become meshes first. An outline takes "weld", the default, and "cut". Raises Refusal.
 
     >>> lidless = polyhedron([(0, 0, 0), (6, 0, 0), (0, 6, 0), (0, 0, 6)], [(0, 2, 1), (0, 1, 3), (1, 2, 3)])
     >>> round(measure(repaired(lidless)).volume, 9)
@@ -57,10 +56,11 @@ def repaired(
     document = document_of(solid)
     (root,) = document.standing
     if is_outline(root):
-        return repair_outline(document, root.id, ("weld",) if repairs is REPAIRS else repairs, tolerance).standing[0]
+        return repair_outline(document, root.id, ("weld",) if repairs is None else repairs, tolerance).standing[0]
     if not isinstance(root, MESHES):
         document = convert_to_mesh(document, root.id)
-    return repair_mesh(document, root.id, repairs, tolerance, longest).standing[0]
+    wanted = tuple(REPAIRS) if repairs is None else repairs
+    return repair_mesh(document, root.id, wanted, tolerance, longest).standing[0]
 
 
 def _only(what: Node | str | os.PathLike[str], tolerance: float, kind: str) -> object:

@@ -32,7 +32,7 @@ class Near:
 
 def near_vertices(vertices: Floats, sides: Sides, tolerance: float) -> Near:
     """Vertices of edges within `tolerance` of each other that no edge joins. Raises Refusal for too many of them."""
-    used = np.unique(sides.ends)
+    used = np.flatnonzero(np.bincount(sides.ends.reshape(-1), minlength=len(vertices)))
     pairs = used[close_pairs(vertices[used], tolerance)]
     pairs = pairs[~_listed(pairs, sides.ends, len(vertices))]
     one, two = vertices[pairs[:, 0]], vertices[pairs[:, 1]]
@@ -104,6 +104,9 @@ def _vertices_on(vertices: Floats, triangles: Numbers, sides: Sides, meets: Numb
     count = max(len(sides.ends), 1)
     opposite = triangles[:, [2, 0, 1]].reshape(-1)
     here = sides.edge >= 0
+    near = np.zeros(len(vertices), bool)
+    near[meets[:, 0]] = True
+    here &= near[opposite]
     own = np.unique(opposite[here] * count + sides.edge[here])
     keys = np.setdiff1d(meets[:, 0] * count + meets[:, 1], own).astype(np.int64)
     vertex, ends = keys // count, sides.ends[keys % count]

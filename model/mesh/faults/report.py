@@ -150,7 +150,7 @@ def find_faults(
     places = points[thin].mean(axis=1)
     listed += _rows("sliver", thin, places, lengths[slivers].max(axis=1, initial=0.0), heights[slivers], limit)
     return MeshFaults(
-        vertices=len(np.unique(faces)),
+        vertices=int(np.count_nonzero(np.bincount(faces.reshape(-1), minlength=len(points)))),
         triangles=len(faces),
         open_edges=int(sides.open.sum()),
         borders=len(borders),
