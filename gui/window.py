@@ -35,6 +35,7 @@ from .evaluation import Evaluation
 from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
+from .mesh.panel import MeshPanel
 from .palette.palette import Palette
 from .panels.figures import FigureUse
 from .panels.measured import measured
@@ -185,6 +186,7 @@ class MainWindow(QMainWindow):
         self.script = ScriptLog(self.session, self)
         self.bsp = BspPanel(self)
         self.surfaces = SurfacesPanel(self)
+        self.mesh = MeshPanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -205,6 +207,7 @@ class MainWindow(QMainWindow):
                 "Parameters": self.parameters,
                 "BSP": self.bsp,
                 "Surfaces": self.surfaces,
+                "Mesh": self.mesh,
             },
             bottom={
                 "Problems": self.problems,
@@ -214,6 +217,7 @@ class MainWindow(QMainWindow):
             },
         )
         self.docks["Surfaces"].hide()
+        self.docks["Mesh"].hide()
 
     # What happens.
 
@@ -232,6 +236,7 @@ class MainWindow(QMainWindow):
             self.sections,
             self.script,
             self.surfaces,
+            self.mesh,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)

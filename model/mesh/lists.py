@@ -90,8 +90,8 @@ def of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike) -> Me
 
 
 def faces_of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike) -> tuple[MeshLists, Numbers]:
-    """Lists of the polygons that connected triangles (t, 3) of the same flat face, `facet` (t,), make together, and (t,)
-    which face each triangle is of.
+    """Lists of the polygons that connected triangles (t, 3) of the same flat face, `facet` (t,), make together, and
+    (t,) which face each triangle is of.
 
     Their loops are the sides between triangles of different groups, chained around each corner through the group's own
     triangles, so that loops which touch in a vertex stay apart. The outer loop is the one with the largest area.

@@ -22,8 +22,8 @@ DIGITS = 7
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Column:
-    """`key` (n,) is what rows are sorted by; `text` writes a row's cell: its number, what numbers count from, and whether
-    figures are wanted exactly."""
+    """`key` (n,) is what rows are sorted by; `text` writes a row's cell: its number, what numbers count from, and
+    whether figures are wanted exactly."""
 
     title: str
     tip: str
