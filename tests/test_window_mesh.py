@@ -1,7 +1,5 @@
 """The Mesh panel in the real window."""
 
-import numpy as np
-
 from solidtree.model.script import box, cylinder, document_of
 
 pytest_plugins = ["window_driver"]
@@ -19,7 +17,6 @@ def opened(make_window, *solids):
 
 
 def test_shot(make_window):
-    import os
     from PySide6.QtWidgets import QApplication
 
     driver, inspector = opened(make_window)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QAbstractItemView,
@@ -22,7 +22,10 @@ from PySide6.QtWidgets import (
 from ..partition.inks import inks_now
 
 if TYPE_CHECKING:
+    from ...model.document.errors import Refusal
     from ...model.mesh.costs import Cost
+    from ...model.mesh.inspected import InspectedMesh
+    from ..background import Background
 
 WORDS = (
     "Memory against time: what a structure does not hold has to be searched for. Times are of one answer here and now, "
@@ -38,9 +41,7 @@ SHORT = {
 
 
 class CostsPage(QWidget):
-    """`asked` tells that it wants to be measured."""
-
-    asked = Signal()
+    """Measures a mesh when it is first looked at, in the background."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -56,7 +57,6 @@ class CostsPage(QWidget):
         self.words.setContentsMargins(8, 6, 8, 6)
         self.words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
         self.again = QPushButton("Measure again", self)
-        self.again.clicked.connect(self.asked)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -65,7 +65,36 @@ class CostsPage(QWidget):
         layout.addWidget(self.again, 0, Qt.AlignmentFlag.AlignLeft)
         layout.setSpacing(6)
         self._costs: Sequence[Cost] = ()
+        self._mesh: InspectedMesh | None = None
+        """That the costs are of, or will be."""
+        self._measuring = False
         self.show_costs(())
+
+    def measure(self, background: Background, mesh: InspectedMesh | None, again: bool = False) -> None:
+        """Show what this mesh costs; measured `again` where that is known."""
+        if mesh is None or (mesh is self._mesh and not again):
+            return
+        self._mesh = mesh
+        self.show_costs((), waiting=True)
+        if self._measuring:
+            return  # what is under way is followed by the latest
+        from ...model.mesh.costs import costs
+
+        self._measuring = True
+
+        def done(found: list[Cost]) -> None:
+            self._measuring = False
+            if self._mesh is mesh:
+                self.show_costs(found)
+            else:
+                latest, self._mesh = self._mesh, None
+                self.measure(background, latest)
+
+        def refused(refusal: Refusal) -> None:
+            self._measuring = False
+            self.words.setText(str(refusal))
+
+        background.run("Measuring the representations", lambda: costs(mesh), done, refused)
 
     def show_costs(self, costs: Sequence[Cost], waiting: bool = False) -> None:
         """These figures; none of them while they are `waiting` to be measured."""

@@ -109,7 +109,7 @@ class ElementTool(ClickTool):
             self.hovered.emit(kind, np.array(elements, np.int64))
 
     def _at(self, position: QPointF, hovering: bool = False) -> tuple[Kind | None, list[int], int, str]:
-        """Kind and elements under the pointer, the one that is meant, and the solid; None and "" where there is none."""
+        """Kind and elements under the pointer, the one that is meant, and the solid; None and "" for none."""
         from ...render.mesh.element_pick import REACH, element_at, pick_near
 
         viewer, mesh = self._viewer, self._source.mesh

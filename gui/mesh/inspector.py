@@ -8,7 +8,7 @@ import numpy as np
 from PySide6.QtCore import QObject
 
 from ...model.document.errors import Refusal
-from ...model.mesh.selecting import Flags, centre_of, flags
+from ...model.mesh.selecting import converted, flags
 from ...model.mesh.tables import Tables
 from ..view.occurrences import maker_of
 from .choices import ALL, CHOICES, CHOSEN, KIND_OF, TABLE_OF, Asked, Limits, listed
@@ -24,7 +24,6 @@ if TYPE_CHECKING:
     from numpy.typing import NDArray
 
     from ...model.editing.session import State
-    from ...model.mesh.costs import Cost
     from ...model.mesh.inspected import InspectedMesh
     from ...model.mesh.selecting import Kind
     from ..window import MainWindow
@@ -52,8 +51,6 @@ class MeshInspector(QObject):
         self._active = False
         self._wanted = True
         """Whether clicks in the picture choose elements while the panel is in front."""
-        self._costs: tuple[InspectedMesh, list[Cost]] | None = None
-        self._measuring = False
         self._own_rows: TablePage | None = None
         self.page = page = MeshPage(window.actions_, panel)
         self.source.changed.connect(self._follow_source)
@@ -62,7 +59,7 @@ class MeshInspector(QObject):
         page.polygons_chosen.connect(self.source.set_polygons)
         page.first_chosen.connect(self._set_first)
         page.pages.currentChanged.connect(self._follow_page)
-        page.costs.asked.connect(lambda: self._measure(again=True))
+        page.costs.again.clicked.connect(lambda: page.costs.measure(window.files.background, self.mesh, again=True))
         for name, table in page.tables.items():
             table.filtered.connect(lambda table=table: self._filter(table))
             table.asked_for.connect(lambda number, table=table: self.go_to(table.name, number - self.first))
@@ -147,7 +144,7 @@ class MeshInspector(QObject):
         if self.tables is None:
             return
         if table is None:
-            self._measure()
+            self.page.costs.measure(self._window.files.background, self.mesh)
         elif table.view.elements.table is None:
             self._list(table)
         self._mark_rows()
@@ -273,12 +270,10 @@ class MeshInspector(QObject):
             return
         points = mesh.lists.vertices
         size = float(np.linalg.norm(np.ptp(points, axis=0)))
-        members: Flags = flags(self.chosen.size(kind), (element,))
-        from ...model.mesh.selecting import converted
-
+        members = flags(self.chosen.size(kind), (element,))
         mine = points[converted(mesh.winged, members, kind, "vertex")]
-        middle = mine.mean(axis=0) if len(mine) else centre_of(mesh, kind, element)
         half = max(float(np.ptp(mine, axis=0).max(initial=0.0)), NEAR * size) / 2
+        middle = (mine.min(axis=0) + mine.max(axis=0)) / 2
         bounds = np.array([middle - half, middle + half])
         self._viewport.move_to(fit(viewer.camera, bounds, viewer.size[0] / viewer.size[1], 1.3))
 
@@ -292,32 +287,6 @@ class MeshInspector(QObject):
         if self._active:
             self.picture.show(self.first)
             self.page.costs.retint()
-
-    # Costs.
-
-    def _measure(self, again: bool = False) -> None:
-        from ...model.mesh.costs import costs
-
-        mesh = self.mesh
-        if mesh is None or self._measuring:
-            return
-        if not again and self._costs is not None and self._costs[0] is mesh:
-            self.page.costs.show_costs(self._costs[1])
-            return
-        self._measuring = True
-        self.page.costs.show_costs((), waiting=True)
-
-        def done(found: list[Cost]) -> None:
-            self._measuring = False
-            self._costs = mesh, found
-            if self.page.table() is None and self._active:
-                self._measure()
-
-        def refused(refusal: Refusal) -> None:
-            self._measuring = False
-            self._panel.refused.emit(str(refusal))
-
-        self._window.files.background.run("Measuring the representations", lambda: costs(mesh), done, refused)
 
     # Out of the window.
 

@@ -60,9 +60,11 @@ def element_words(mesh: InspectedMesh, labels: Sequence[str], kind: Kind, elemen
     holes = f" with {_count(loops - 1, 'hole')}" if loops > 1 else ""
     corners = sum(len(loop) for loop in mesh.lists.face(element))
     x, y, z = (_figure(value) for value in mesh.face_normals[element].tolist())
+    normal = int(mesh.lists.face_normal[element]) + first
+    area = _figure(float(mesh.area[element]))
     return (
-        f"<b>Face {element + first:,}</b>{maker}: {corners:,} corners{holes}, "
-        f"{_figure(float(mesh.area[element]))} mm², normal {int(mesh.lists.face_normal[element]) + first:,} ({x}, {y}, {z})."
+        f"<b>Face {element + first:,}</b>{maker}: {corners:,} corners{holes}, {area} mm², "
+        f"normal {normal:,} ({x}, {y}, {z})."
     )
 
 

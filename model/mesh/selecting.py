@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .inspected import FLAT, InspectedMesh
-from .lists import Floats, Numbers
+from .lists import Numbers
 from .walks import chain
 from .winged import END, LEFT, LEFT_AFTER, RIGHT, START, WingedEdge
 
@@ -179,17 +179,6 @@ def grown(mesh: WingedEdge, chosen: Flags, kind: Kind) -> Flags:
 def shrunk(mesh: WingedEdge, chosen: Flags, kind: Kind) -> Flags:
     """Without what touches something outside a set: the opposite of growing what is not in it."""
     return ~grown(mesh, ~chosen, kind)
-
-
-def centre_of(mesh: InspectedMesh, kind: Kind, element: int) -> Floats:
-    """(3,) a place to look at: the vertex, the edge's middle, the mean of the face's corners."""
-    points = mesh.lists.vertices
-    if kind == "vertex":
-        return points[element]
-    if kind == "edge":
-        return points[mesh.winged.table[element, [START, END]]].mean(axis=0)
-    loops = mesh.lists.face(element)
-    return points[loops[0]].mean(axis=0) if loops else np.zeros(3)
 
 
 def _in(faces: Flags, column: NDArray[np.int32]) -> Flags:

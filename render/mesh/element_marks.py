@@ -26,7 +26,7 @@ HIDDEN = 0.28  # opacity of edges and vertices that faces hide
 
 
 class ElementMarks:
-    """Marks among the solids of a viewer's picture. What faces hide of edges and vertices is seen through them, faintly.
+    """Marks among the solids of a viewer's picture. Edges and vertices are seen faintly through faces.
 
     They follow `scene.sections`: what a section takes away is not marked either.
     """
