@@ -137,15 +137,6 @@ def ask_outline_path(parent: QWidget, start: Path, then: Callable[[str], None]) 
     dialog.open()
 
 
-def ask_table_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
-    """Which file to write a table to."""
-    dialog = _file_dialog(parent, "Save table", str(start.parent), ["Table (*.csv)"], then)
-    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
-    dialog.setDefaultSuffix("csv")
-    dialog.selectFile(start.name)
-    dialog.open()
-
-
 def ask_drawing_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
     """Which file to write a drawing to."""
     filters = {

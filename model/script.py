@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from .document.document import Document
 from .document.errors import Refusal
-from .scripting import documents, fonts, hidden_surfaces, joining, letters, shapes, sight, surfaces
+from .scripting import documents, fonts, hidden_surfaces, joining, letters, shapes, sight, structures, surfaces
 from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
 from .scripting.fonts import *  # noqa: F403
@@ -21,6 +21,7 @@ from .scripting.letters import *  # noqa: F403
 from .scripting.outlines import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
+from .scripting.structures import *  # noqa: F403
 from .scripting.surfaces import *  # noqa: F403
 
 __all__ = ["Document", "Refusal"]
@@ -32,4 +33,5 @@ __all__ += documents.__all__
 __all__ += fonts.__all__
 __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__
+__all__ += structures.__all__
 __all__ += surfaces.__all__

@@ -39,7 +39,7 @@ ORDER = {
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces "
-    "Tools/Mesh_elements Tools/Walk_along_edges Tools/Mesh bitmap_inspector - tool_menu",
+    "Tools/Mesh_elements Tools/Walk_along_edges Tools/Mesh Tools/Edit_mesh bitmap_inspector - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
     "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel mesh_panel panels",

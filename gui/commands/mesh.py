@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import TYPE_CHECKING
 
+from ...model.document.errors import Refusal
 from ...model.editing.commands import Command
 
 if TYPE_CHECKING:
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from ..window import MainWindow
 
 MENU = "Tools/Mesh"
+EDIT = "Tools/Edit mesh"
 MODES = "Tools/Mesh elements"
 
 
@@ -104,6 +106,51 @@ def _look(window: MainWindow) -> None:
                       else inspector.chosen.current)  # fmt: skip
 
 
+def _not_editable(*kinds: str) -> Callable[[MainWindow], str | None]:
+    """A fault for edits of such elements; none named: of all."""
+
+    def fault(window: MainWindow) -> str | None:
+        if _none(window):
+            return _none(window)
+        chosen = _inspector(window).chosen
+        if kinds == ("edge",) and chosen.edge < 0:
+            return "choose one edge first"
+        if kinds and chosen.kind not in kinds:
+            return "choose a face first"
+        return _inspector(window).editing.fault()
+
+    return fault
+
+
+def _edit(name: str) -> Callable[[MainWindow], None]:
+    return lambda window: _inspector(window).editing.run(name)
+
+
+def _ask_move(window: MainWindow) -> None:
+    from PySide6.QtCore import Qt
+    from PySide6.QtWidgets import QInputDialog
+
+    from ..partition.model_page import point_from
+
+    def move(text: str) -> None:
+        try:
+            _inspector(window).editing.move(point_from(text))
+        except Refusal as refusal:
+            window.actions_.refused.emit(str(refusal))
+
+    dialog = QInputDialog(window)
+    dialog.setWindowTitle("Move vertices")
+    dialog.setLabelText("By x, y, z in mm, along the node's own axes:")
+    dialog.setTextValue("0, 0, 1")
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.textValueSelected.connect(move)
+    dialog.open()
+
+
+def _convert_to_mesh(window: MainWindow) -> None:
+    window.session.do("convert_to_mesh", _inspector(window).source.solid, label="Convert to mesh")
+
+
 def _chooses(name: str, title: str, tip: str, fault: Callable[[MainWindow], str | None] = _closed) -> Command:
     return Command(f"mesh_choose_{name}", title, MENU, _choose(name), fault, tip=tip)
 
@@ -163,6 +210,22 @@ MESH_COMMANDS: tuple[Command, ...] = (
     Command("mesh_to_edges", "As edges", MENU, _convert("edge"), _none,
             tip="The edges of chosen faces, or those between chosen vertices"),
     Command("mesh_to_faces", "As faces", MENU, _convert("face"), _none, tip="The faces whose edges are all chosen"),
+    Command("mesh_split_edge", "Split edge", EDIT, _edit("split_edge"), _not_editable("edge"),
+            tip="Put a vertex into its middle"),
+    Command("mesh_flip_edge", "Flip edge", EDIT, _edit("flip_edge"), _not_editable("edge"),
+            tip="Turn it between its two triangles, so that it joins their other corners"),
+    Command("mesh_collapse_edge", "Collapse edge", EDIT, _edit("collapse_edge"), _not_editable("edge"),
+            tip="Make its two ends one in its middle; the triangles beside it are gone"),
+    Command("mesh_split_face", "Split triangle", EDIT, _edit("split_face"), _not_editable("face"),
+            tip="Put a vertex into its middle"),
+    Command("mesh_reverse_faces", "Reverse faces", EDIT, _edit("reverse_faces"), _not_editable("face"),
+            tip="Turn the chosen faces round, so that their other side is outside"),
+    Command("mesh_delete_faces", "Delete faces", EDIT, _edit("delete_faces"), _not_editable("face"),
+            tip="Take the chosen faces out of the mesh"),
+    Command("mesh_move_vertices", "Move vertices \u2026", EDIT, _ask_move, _not_editable(),
+            tip="Move the vertices of what is chosen by three numbers"),
+    Command("mesh_convert", "Convert solid to mesh", EDIT, _convert_to_mesh, _closed,
+            tip="Make one mesh of the inspected solid, whose elements can be edited; its operands are gone"),
     Command("mesh_select_node", "Select the node of the face", MENU, _select_node, _no_face,
             tip="Select in the tree what made the face"),
     Command("mesh_look_at", "Zoom to the element", MENU, _look, _none, icon="fit_selection",

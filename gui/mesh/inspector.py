@@ -13,6 +13,7 @@ from ...model.mesh.tables import Tables
 from ..view.occurrences import maker_of
 from .choices import ALL, CHOICES, CHOSEN, KIND_OF, TABLE_OF, Asked, Limits, listed
 from .chosen import Chosen
+from .editing import MeshEditing
 from .element_picture import ElementPicture
 from .element_tool import ElementTool
 from .page import MeshPage
@@ -45,6 +46,7 @@ class MeshInspector(QObject):
         self.tool = ElementTool(window.viewport, self.source, self.chosen, self)
         window.viewport.add_tool(self.tool)
         self.picture = ElementPicture(window.viewport, self.chosen)
+        self.editing = MeshEditing(window.session, self.chosen)
         self.limits = Limits()
         self.first = 0
         self.tables: Tables | None = None

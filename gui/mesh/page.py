@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from ..commands.mesh import MENU, MESH_SEPARATORS
+from ..commands.mesh import EDIT, MENU, MESH_SEPARATORS
 from ..surfaces.buttons import flat_button
 from .costs_page import CostsPage
 from .table_page import TablePage
@@ -108,20 +108,24 @@ class MeshPage(QWidget):
         self.first.setToolTip("Count vertices, normals, faces and edges from 1 instead of 0")
         self.first.toggled.connect(lambda on: self.first_chosen.emit(int(on)))
         layout.addWidget(self.first)
-        choose = QToolButton(row)
-        choose.setProperty("flat", True)
-        choose.setText("Choose \u25be")
-        choose.setToolTip("Elements by angle, length, maker, and what lies around them; the clipboard and files")
-        choose.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        choose.setMenu(self._choose_menu(choose))
-        layout.addWidget(choose)
+        for title, menu, tip in (
+            ("Choose", MENU, "Elements by angle, length, maker, and what lies around them; the clipboard and files"),
+            ("Edit", EDIT, "Change the mesh: edges, faces and vertices of what is chosen"),
+        ):
+            button = QToolButton(row)
+            button.setProperty("flat", True)
+            button.setText(f"{title} \u25be")
+            button.setToolTip(tip)
+            button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+            button.setMenu(self._menu(menu, button))
+            layout.addWidget(button)
         return row
 
-    def _choose_menu(self, parent: QWidget) -> QMenu:
+    def _menu(self, place: str, parent: QWidget) -> QMenu:
         menu = QMenu(parent)
         menu.setToolTipsVisible(True)
         for command in self._actions.commands():
-            if command.menu == MENU:
+            if command.menu == place:
                 if command.name in MESH_SEPARATORS:
                     menu.addSeparator()
                 menu.addAction(self._actions[command.name])

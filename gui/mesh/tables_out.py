@@ -5,7 +5,9 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog
 
 from ...model.document.errors import Refusal
 
@@ -35,10 +37,14 @@ def copy_rows(window: MainWindow, page: TablePage, rows: NDArray[np.int64], firs
 
 def ask_csv(window: MainWindow, page: TablePage, first: int, solid: str) -> None:
     """Ask which file the listed rows are to be written to."""
-    from .. import dialogs
-
-    start = Path(window.settings.folder, f"{solid} {page.name}.csv")
-    dialogs.ask_table_path(window, start, lambda path: write_csv(window, page, path, first))
+    dialog = QFileDialog(window, "Save table", window.settings.folder)
+    dialog.setNameFilters(["Table (*.csv)"])
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+    dialog.setDefaultSuffix("csv")
+    dialog.selectFile(f"{solid} {page.name}.csv")
+    dialog.fileSelected.connect(lambda path: write_csv(window, page, path, first))
+    dialog.open()
 
 
 def write_csv(window: MainWindow, page: TablePage, path: str, first: int) -> None:

@@ -193,10 +193,18 @@ class Wings(Answers):
         return range(int(self._winged.face_loops[face]), int(self._winged.face_loops[face + 1]))
 
 
+KINDS = (Soup, FaceLists, EdgeList, Wings)
+
+
+def sizes(mesh: InspectedMesh) -> dict[str, int]:
+    """The bytes of each of REPRESENTATIONS."""
+    return {kind.name: kind(mesh).nbytes for kind in KINDS}
+
+
 def costs(mesh: InspectedMesh, longest: float = LONGEST) -> list[Cost]:
     """By REPRESENTATIONS, what each holds and how long an answer takes on average; `longest` seconds a question."""
     found = []
-    for kind in (Soup, FaceLists, EdgeList, Wings):
+    for kind in KINDS:
         answers: Answers = kind(mesh)
         faces = len(mesh.triangles) if kind is Soup else mesh.lists.face_count
         asked = (
