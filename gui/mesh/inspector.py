@@ -209,20 +209,20 @@ class MeshInspector(QObject):
             return
         if view.elements.rows_of(np.array([number]))[0] < 0:
             self.page.tables[table].set_filter(ALL)
-        self._rows_chosen(table, np.array([number]), number)
+        self._choose_rows(table, np.array([number]), number)
 
     def _rows_chosen(self, table: str, rows: NDArray[np.int64], current: int) -> None:
-        mesh = self.mesh
-        if mesh is None:
-            return
         self._own_rows = self.page.tables[table]
-        if table == "normals":
-            picked = np.isin(mesh.lists.face_normal, rows)
-            self.chosen.set("face", picked)
-        else:
+        self._choose_rows(table, rows, current)
+        self._own_rows = None
+
+    def _choose_rows(self, table: str, rows: NDArray[np.int64], current: int) -> None:
+        mesh = self.mesh
+        if mesh is not None and table == "normals":
+            self.chosen.set("face", np.isin(mesh.lists.face_normal, rows))
+        elif mesh is not None:
             kind = KIND_OF[table]
             self.chosen.set(kind, flags(self.chosen.size(kind), rows), current)
-        self._own_rows = None
 
     def _follow_chosen(self) -> None:
         self.picture.show(self.first)
