@@ -294,7 +294,7 @@ def check_costs(driver, inspector):
     table = inspector.page.costs.table
     driver.qtbot.waitUntil(lambda: table.columnCount() == 4, timeout=15000)
     titles = [table.horizontalHeaderItem(column).text() for column in range(4)]
-    assert titles == ["Triangle soup", "Face lists", "+ edge list", "Winged edge"] and table.rowCount() == 5
+    assert titles == ["Triangle\nsoup", "Face\nlists", "+ edge\nlist", "Winged\nedge"] and table.rowCount() == 5
     assert table.item(0, 0).text() == "8.06 kB"  # 112 triangles of 72 bytes
     assert all(table.item(row, column).text().endswith(("µs", "ms")) for row in range(1, 5) for column in range(4))
 

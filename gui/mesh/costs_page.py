@@ -9,6 +9,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import (
     QAbstractItemView,
+    QHBoxLayout,
     QHeaderView,
     QLabel,
     QPushButton,
@@ -33,10 +34,10 @@ WORDS = (
     "the mesh; the others take as long in any mesh. In Python, small scans of an array are quick too."
 )
 SHORT = {
-    "triangle soup": "Triangle soup",
-    "face lists": "Face lists",
-    "face lists and edge list": "+ edge list",
-    "winged edge": "Winged edge",
+    "triangle soup": "Triangle\nsoup",
+    "face lists": "Face\nlists",
+    "face lists and edge list": "+ edge\nlist",
+    "winged edge": "Winged\nedge",
 }
 
 
@@ -51,7 +52,8 @@ class CostsPage(QWidget):
         self.table.setSelectionMode(QAbstractItemView.SelectionMode.NoSelection)
         self.table.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.table.setShowGrid(False)
-        self.table.setWordWrap(True)
+        self.table.setCornerButtonEnabled(False)
+        self.table.verticalHeader().setDefaultSectionSize(40)
         self.words = QLabel(self)
         self.words.setWordWrap(True)
         self.words.setContentsMargins(8, 6, 8, 6)
@@ -62,8 +64,10 @@ class CostsPage(QWidget):
         layout.setSpacing(0)
         layout.addWidget(self.words)
         layout.addWidget(self.table, 1)
-        layout.addWidget(self.again, 0, Qt.AlignmentFlag.AlignLeft)
-        layout.setSpacing(6)
+        below = QHBoxLayout()
+        below.setContentsMargins(8, 6, 8, 6)
+        below.addWidget(self.again, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addLayout(below)
         self._costs: Sequence[Cost] = ()
         self._mesh: InspectedMesh | None = None
         """That the costs are of, or will be."""
@@ -113,7 +117,9 @@ class CostsPage(QWidget):
         self.table.clear()
         self.table.setRowCount(1 + len(QUESTIONS))
         self.table.setColumnCount(len(costs))
-        self.table.setVerticalHeaderLabels(["Memory", *(question.capitalize() for question in QUESTIONS)])
+        self.table.setVerticalHeaderLabels(
+            ["Memory", *(question.capitalize().replace(" ", "\n", 1) for question in QUESTIONS)]
+        )
         self.table.setHorizontalHeaderLabels([SHORT[cost.name] for cost in costs])
         for column, cost in enumerate(costs):
             header = self.table.horizontalHeaderItem(column)

@@ -175,7 +175,7 @@ class ElementView(QTableView):
         if len(begins) <= MOST_RUNS:
             last = model.columnCount() - 1
             for begin, end in zip(rows[begins].tolist(), rows[ends - 1].tolist(), strict=True):
-                selection.append(QItemSelection(model.index(begin, 0), model.index(end, last))[0])
+                selection.select(model.index(begin, 0), model.index(end, last))
         self._following = True
         self.selectionModel().select(selection, QItemSelectionModel.SelectionFlag.ClearAndSelect)
         row = int(model.rows_of(np.array([current]))[0]) if current >= 0 else -1
@@ -201,7 +201,7 @@ class ElementView(QTableView):
     def _selected(self) -> None:
         if self._following:
             return
-        rows = [np.arange(run.top(), run.bottom() + 1) for run in self.selectionModel().selection()]
+        rows = [np.arange(run.top(), run.bottom() + 1) for run in self.selectionModel().selection().toList()]
         picked = self.elements.listed[np.unique(np.concatenate(rows))] if rows else np.zeros(0, np.int64)
         row = self.currentIndex().row()
         current = int(self.elements.listed[row]) if 0 <= row < len(self.elements.listed) else -1

@@ -78,12 +78,17 @@ class TablePage(QWidget):
 
     def say(self, listed: int, of: int) -> None:
         """How many rows there are."""
-        self.words.setText(f"{listed:,} of {of:,} {self.name}" if listed != of else f"{of:,} {self.name}")
+        words = (
+            f"{listed:,} of {of:,} {self.name}"
+            if listed
+            else f"None of the {of:,} {self.name} is “{self.filter.currentText()}”"
+        )
+        self.words.setText(f"{of:,} {self.name}" if listed == of else words)
 
     def _limit(self, name: str, unit: str, value: float, step: float) -> QDoubleSpinBox:
         field = QDoubleSpinBox(self)
         field.setRange(0.0, 180.0 if name == "sharp" else 1e6)
-        field.setDecimals(1 if name == "sharp" else 4)
+        field.setDecimals(1 if name == "sharp" else 3)
         field.setSingleStep(step)
         field.setValue(value)
         field.setSuffix(unit)
