@@ -22,6 +22,9 @@ if TYPE_CHECKING:
 Numbers = NDArray[np.int64]
 
 NEARER = -6.0  # depth steps before the faces, which a mark lies on
+MANY = 50_000
+"""Of more elements a mark is plain: thin lines, opaque faces, nothing through faces. Without a graphics card thick lines
+and what is translucent take many times as long."""
 HIDDEN = 0.28  # opacity of edges and vertices that faces hide
 
 
@@ -33,15 +36,13 @@ class ElementMarks:
 
     def __init__(self, viewer: Viewer, opacity: float = 0.55) -> None:
         """`opacity` is that of faces."""
-        self._viewer = viewer
+        self._viewer, self._opacity = viewer, opacity
         self._sizes: dict[vtkActor, float] = {}
         # Opacity, how much nearer than the faces, size in logical pixels.
         self._faces = self._made(opacity, NEARER)
         self._edges, self._far_edges = self._made(1.0, NEARER - 2.0, 3.0), self._made(HIDDEN, BEFORE_ALL, 2.0)
         self._vertices, self._far_vertices = self._made(1.0, NEARER - 6.0, 9.0), self._made(HIDDEN, BEFORE_ALL, 7.0)
         self._actors = (self._faces, self._edges, self._far_edges, self._vertices, self._far_vertices)
-        for actor in (self._vertices, self._far_vertices):
-            actor.GetProperty().RenderPointsAsSpheresOn()
         self._planes = viewer.scene.sections.planes
 
     def show(
@@ -63,15 +64,16 @@ class ElementMarks:
             wanted = np.zeros(mesh.lists.face_count, bool)
             wanted[faces] = True
             triangles = mesh.triangles[wanted[mesh.triangle_face]]
+            self._faces.GetProperty().SetOpacity(self._opacity if len(triangles) <= MANY else 1.0)
             self._put((self._faces,), _polygons(points, triangles), colour)
         if edges is not None and len(edges):
             ends = mesh.winged.table[edges][:, [START, END]]
-            self._put((self._edges, self._far_edges), lines_of(*_used(points, ends)), colour)
+            self._put((self._edges, self._far_edges), lines_of(*_used(points, ends)), colour, len(edges))
         if vertices is not None and len(vertices):
             data = vtkPolyData()
             data.SetPoints(points_of(points[vertices]))
             data.SetVerts(cells_of(np.arange(len(vertices), dtype=np.int32)[:, None]))
-            self._put((self._vertices, self._far_vertices), data, colour)
+            self._put((self._vertices, self._far_vertices), data, colour, len(vertices))
 
     def follow_sections(self) -> None:
         """Let the sections that are open now clip what is marked."""
@@ -81,13 +83,15 @@ class ElementMarks:
             self._viewer.scene.sections.clip(self._actors)
             self._viewer.needs_render = True
 
-    def _put(self, actors: tuple[vtkActor, ...], data: vtkPolyData, colour: str) -> None:
-        for actor in actors:
+    def _put(self, actors: tuple[vtkActor, ...], data: vtkPolyData, colour: str, count: int = 0) -> None:
+        many = count > MANY
+        for actor in actors[:1] if many else actors:
             actor.GetMapper().SetInputDataObject(data)
             look = actor.GetProperty()
             look.SetColor(*rgb(colour))
-            look.SetLineWidth(self._sizes[actor] * self._viewer.scale)
-            look.SetPointSize(self._sizes[actor] * self._viewer.scale)
+            look.SetLineWidth(1.0 if many else self._sizes[actor] * self._viewer.scale)
+            look.SetPointSize(3.0 if many else self._sizes[actor] * self._viewer.scale)
+            look.SetRenderPointsAsSpheres(actor in (self._vertices, self._far_vertices) and not many)
             actor.VisibilityOn()
         self._viewer.scene.sections.clip(actors)
 
