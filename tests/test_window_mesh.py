@@ -234,6 +234,7 @@ def check_copies(driver, inspector, tmp_path):
     page = inspector.page.tables["edges"]
     click_row(driver, page, 3)
     click_row(driver, page, 5, CTRL)
+    driver.session.select([driver.node("drill").id])
     driver.keys("Ctrl+C", page.view)
     lines = QGuiApplication.clipboard().text().split("\n")
     assert lines[0].split("\t") == page.view.elements.table.titles and len(lines) == 3

@@ -148,7 +148,8 @@ def _ask_move(window: MainWindow) -> None:
 
 
 def _convert_to_mesh(window: MainWindow) -> None:
-    window.session.do("convert_to_mesh", _inspector(window).source.solid, label="Convert to mesh")
+    inspector = _inspector(window)
+    inspector.editing.convert(inspector.source.solid)
 
 
 def _chooses(name: str, title: str, tip: str, fault: Callable[[MainWindow], str | None] = _closed) -> Command:

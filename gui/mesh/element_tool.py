@@ -27,7 +27,7 @@ HINTS: dict[Mode, str] = {
     "loop": "Click in a face, near the loop that is meant",
     "chain": "Click an edge: those that go on smoothly from it are chosen too",
 }
-MORE = "Shift adds, Ctrl adds and takes away, Escape chooses nothing"
+MORE = "Shift adds, Ctrl adds and takes away, Escape chooses nothing, then ends this"
 LIVE = 200_000  # edges of a mesh whose chains are followed while the pointer moves
 
 
@@ -119,7 +119,7 @@ class ElementTool(ClickTool):
         pick = pick_near(viewer, x, y)
         if pick is None:
             return None, [], -1, ""
-        if mesh is None or pick.solid_id != self._source.solid:
+        if mesh is None or pick.solid_id != self._source.solid or not self._source.up_to_date:
             return None, [], -1, pick.solid_id
         kind = KINDS[self.mode]
         found = element_at(viewer, mesh, pick.triangle, kind, x, y, np.inf if self.mode == "loop" else REACH)

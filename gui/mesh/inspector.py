@@ -46,7 +46,7 @@ class MeshInspector(QObject):
         self.tool = ElementTool(window.viewport, self.source, self.chosen, self)
         window.viewport.add_tool(self.tool)
         self.picture = ElementPicture(window.viewport, self.chosen)
-        self.editing = MeshEditing(window.session, self.chosen)
+        self.editing = MeshEditing(window, self.chosen)
         self.limits = Limits()
         self.first = 0
         self.tables: Tables | None = None
@@ -56,6 +56,7 @@ class MeshInspector(QObject):
         self._own_rows: TablePage | None = None
         self.page = page = MeshPage(window.actions_, panel)
         self.source.changed.connect(self._follow_source)
+        self.source.outdated.connect(self.picture.clear)
         self.chosen.changed.connect(self._follow_chosen)
         page.solid_chosen.connect(self.source.choose)
         page.polygons_chosen.connect(self.source.set_polygons)
@@ -92,6 +93,7 @@ class MeshInspector(QObject):
             self._follow_source()
             if self._wanted:
                 self.tool.start()
+                self._viewport.setFocus()
         else:
             wanted = self.tool.active
             self.tool.end()
@@ -137,8 +139,8 @@ class MeshInspector(QObject):
             if fresh:
                 self.chosen.set_mesh(mesh)
         self._follow_page()
-        if fresh:
-            self._viewport.setFocus()
+        if not fresh:  # what is drawn may have been taken away meanwhile
+            self.picture.show(self.first)
 
     def _follow_page(self) -> None:
         """Fill the table that is open, where it is not; measure where the costs are."""
@@ -193,6 +195,10 @@ class MeshInspector(QObject):
         asked = self._asked()
         if asked is None:
             raise Refusal("there is no mesh to choose from")
+        page = self.page.table()
+        if not self.chosen.count and page is not None:  # all of what is looked at, or none of it
+            kind = KIND_OF[page.name]
+            self.chosen.set(kind, flags(self.chosen.size(kind), ()))
         kind, members = CHOICES[name](asked)
         self.chosen.set(kind, members.copy())
         self.show_table(TABLE_OF[kind])

@@ -19,9 +19,11 @@ REST = 120  # milliseconds without a change before a mesh is looked at
 
 
 class MeshSource(QObject):
-    """`changed` tells of another mesh, or of other `words` on why there is none."""
+    """`changed` tells of another mesh, or of other `words` on why there is none; `outdated` that the picture shows
+    another one than `mesh`; `changed` follows."""
 
     changed = Signal()
+    outdated = Signal()
 
     def __init__(self, window: MainWindow, parent: QObject) -> None:
         super().__init__(parent)
@@ -58,6 +60,11 @@ class MeshSource(QObject):
         shown = {} if viewer is None else viewer.scene.solid_meshes
         return {root: mesh for root, mesh in shown.items() if len(mesh.corners)}
 
+    @property
+    def up_to_date(self) -> bool:
+        """Whether `mesh` is what the picture shows."""
+        return self._made is not None and self._meshes.get(self.solid) is self._made[0]
+
     def set_active(self, active: bool) -> None:
         """Whether somebody looks; at rest it does no work."""
         self._active = active
@@ -87,6 +94,8 @@ class MeshSource(QObject):
 
     def _later(self) -> None:
         if self._active:
+            if self.mesh is not None and not self.up_to_date:
+                self.outdated.emit()
             self._soon.start()
 
     def _follow(self) -> None:

@@ -23,8 +23,8 @@ Numbers = NDArray[np.int64]
 
 NEARER = -6.0  # depth steps before the faces, which a mark lies on
 MANY = 50_000
-"""Of more elements a mark is plain: thin lines, opaque faces, nothing through faces. Without a graphics card thick lines
-and what is translucent take many times as long."""
+"""Of more elements a mark is plain: thin lines, opaque faces, nothing seen through faces. Without a graphics card thick
+lines and what is translucent take many times as long."""
 HIDDEN = 0.28  # opacity of edges and vertices that faces hide
 
 
