@@ -99,6 +99,19 @@ def open_box():
     return replace(mesh, corners=mesh.corners[~lid], facet=mesh.facet[~lid], owner=mesh.owner[~lid])
 
 
+def test_flat_faces_of_an_open_mesh_are_found_though_nothing_tells_them():
+    from dataclasses import replace
+
+    mesh = open_box()
+    alone = inspect_mesh(replace(mesh, facet=np.arange(len(mesh.corners), dtype=np.int32)))
+    assert alone.lists.face_count == 5 and alone.area == pytest.approx([100] * 5)
+    evaluation = evaluate(sphere(10, segments=24))
+    ball = evaluation.display(evaluation.solids[0])
+    count = len(ball.corners) - 1
+    cut = replace(ball, corners=ball.corners[1:], owner=ball.owner[1:], facet=np.arange(count, dtype=np.int32))
+    assert inspect_mesh(cut).lists.face_count == count
+
+
 def test_csv_reads_back_exactly():
     mesh = inspected(sphere(10, segments=16))
     table = Tables(mesh, ["ball, round"]).vertices()

@@ -204,6 +204,7 @@ MESH_COMMANDS: tuple[Command, ...] = (
     _chooses("of_maker", "Faces of the same node", "All that the node made which made the chosen ones", _none),
     _chooses("of_nodes", "Faces of selected nodes", "All that the nodes made which are selected in the tree"),
     _chooses("same_way", "Faces that look the same way", "Within a degree of the chosen ones", _none),
+    _chooses("no_larger", "Faces no larger", "All with at most the area of the largest chosen one", _none),
     _chooses("smooth", "Faces up to sharp edges",
              "What hangs together with the chosen faces by edges that are not sharp", _none),
     _chooses("connected", "Connected faces", "All that hangs together with the chosen ones", _none),

@@ -81,6 +81,11 @@ def _same_way(asked: Asked) -> tuple[Kind, Flags]:
     return "face", np.any(found, axis=0)
 
 
+def _no_larger(asked: Asked) -> tuple[Kind, Flags]:
+    faces = asked.faces("choose a face first")
+    return "face", selecting.faces_of_area(asked.mesh, most=float(asked.mesh.area[faces].max()) * (1.0 + 1e-9))
+
+
 def _connected(asked: Asked, most: float) -> tuple[Kind, Flags]:
     faces = asked.faces("choose a face first")
     return "face", selecting.connected_faces(asked.mesh, faces, most)
@@ -121,6 +126,7 @@ CHOICES: dict[str, Choice] = {
     "of_maker": _of_makers,
     "of_nodes": _of_nodes,
     "same_way": _same_way,
+    "no_larger": _no_larger,
     "smooth": lambda a: _connected(a, a.limits.sharp),
     "connected": lambda a: _connected(a, 180.0),
 }

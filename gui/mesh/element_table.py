@@ -26,6 +26,8 @@ ROOT = QModelIndex()
 ROWS = 24  # pixels
 MOST_RUNS = 2_000
 """Runs of rows that are marked as selected; more than that would take longer than anybody wants to wait."""
+OWN = (QKeySequence.StandardKey.Copy, QKeySequence.StandardKey.SelectAll)
+"""Of rows where a table has the focus, not of nodes."""
 SAMPLE = 60  # rows that columns are made wide enough for
 WIDEST = 260  # pixels
 
@@ -189,10 +191,10 @@ class ElementView(QTableView):
         self._following = False
 
     def event(self, event: QEvent) -> bool:
-        if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent):
-            if event.matches(QKeySequence.StandardKey.Copy) or event.matches(QKeySequence.StandardKey.SelectAll):
-                event.accept()  # they are of rows here, not of nodes
-                return True
+        keys = event if event.type() == QEvent.Type.ShortcutOverride and isinstance(event, QKeyEvent) else None
+        if keys is not None and any(keys.matches(own) for own in OWN):
+            event.accept()
+            return True
         return super().event(event)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:

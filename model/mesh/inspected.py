@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from .lists import Floats, MeshLists, Numbers, faces_of_facets, of_triangles
+from .lists import Floats, MeshLists, Numbers, faces_of_facets, flat_facets, of_triangles
 from .topology import Topology, topology
 from .walks import bends
 from .winged import END, LEFT, RIGHT, START, WingedEdge, winged_edge
@@ -28,7 +28,8 @@ class InspectedMesh:
 
     Vertices keep the numbers that they have in the solid's mesh, whether faces are polygons or triangles. A vertex in
     the middle of a flat face belongs to no loop and has no edge; one on a straight side stays a corner of both faces
-    there where a third face ends in it, or where both have it anyway.
+    there where a third face ends in it, or where both have it anyway. Flat faces are those that the solid's evaluation
+    tells; of meshes that are no solids, which it does not look into, triangles side by side in one plane.
     """
 
     lists: MeshLists
@@ -90,7 +91,9 @@ def inspect_mesh(mesh: DisplayMesh, polygons: bool = True) -> InspectedMesh:
     """The structures of a solid's mesh, its faces as polygons with holes or as the triangles they are drawn by."""
     triangles = mesh.corners.astype(np.int64)
     if polygons:
-        lists, triangle_face = faces_of_facets(mesh.vertices, triangles, mesh.facet)
+        told = len(triangles) == 0 or int(mesh.facet.max()) + 1 < len(triangles) or _paired(triangles)
+        facet = mesh.facet if told else flat_facets(mesh.vertices, triangles)
+        lists, triangle_face = faces_of_facets(mesh.vertices, triangles, facet)
     else:
         lists, triangle_face = of_triangles(mesh.vertices, triangles), np.arange(len(triangles))
     winged = winged_edge(lists)
@@ -113,3 +116,10 @@ def inspect_mesh(mesh: DisplayMesh, polygons: bool = True) -> InspectedMesh:
         topology=topology(winged),
         polygons=polygons,
     )
+
+
+def _paired(triangles: Numbers) -> bool:
+    """Whether every side of triangles (t, 3) is one of two between the same vertices, as in what is evaluated."""
+    starts, ends = triangles.reshape(-1), triangles[:, [1, 2, 0]].reshape(-1)
+    keys = np.sort(np.minimum(starts, ends) * (int(triangles.max()) + 1) + np.maximum(starts, ends))
+    return len(keys) % 2 == 0 and bool((keys[::2] == keys[1::2]).all() and (keys[1:-1:2] != keys[2::2]).all())

@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
+SAME_PLANE = 1e-5
+"""Triangles side by side are one flat face up to this angle, in radians: that of coordinates in single precision."""
 SAME_NORMAL = 1e-9
 """Normals of faces are one row of the list where no coordinate differs by more."""
 
@@ -120,6 +122,24 @@ def faces_of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike)
     corners, loop_starts = _reordered(corners, loop_starts, by_face)
     face_loops = np.concatenate(([0], np.cumsum(np.bincount(loop_piece)))).astype(np.int64)
     return of_loops(points, corners, loop_starts, face_loops), piece
+
+
+def flat_facets(vertices: ArrayLike, triangles: ArrayLike) -> Numbers:
+    """(t,) which triangles (t, 3) hang together by sides at which the surface is flat, for `faces_of_facets`, where
+    nothing else tells which of them are one face."""
+    points, found = np.asarray(vertices, float), np.asarray(triangles, np.int64)
+    starts, ends = found.reshape(-1), found[:, [1, 2, 0]].reshape(-1)
+    twin = _twins(starts, ends, np.zeros(len(starts), np.int64))
+    a, b, c = (points[found[:, corner]] for corner in range(3))
+    normal = np.cross(b - a, c - a)
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal /= np.where(size > 0.0, size, 1.0)
+    side = np.flatnonzero(twin >= 0)
+    one, other = normal[side // 3], normal[twin[side] // 3]
+    flat = np.einsum("ij,ij->i", one, other) > 0.5
+    flat &= np.linalg.norm(np.cross(one, other), axis=1) < SAME_PLANE
+    twin[side[~flat]] = -1
+    return _pieces(len(found), twin)
 
 
 def of_loops(vertices: Floats, corners: Numbers, loop_starts: Numbers, face_loops: Numbers) -> MeshLists:
