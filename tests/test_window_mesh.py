@@ -9,6 +9,7 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 
 from solidtree.model.mesh.winged import END, LEFT, LEFT_AFTER, RIGHT, START
+from solidtree.model.operations.placing import move
 from solidtree.model.script import box, cylinder, document_of, sphere
 
 pytest_plugins = ["window_driver"]
@@ -280,6 +281,15 @@ def check_changes(driver, inspector):
     driver.settle()
     driver.qtbot.waitUntil(lambda: inspector.source.settled)
     assert inspector.page.solid.count() == 3 and inspector.chosen.edge >= 0
+    # While something is dragged, what is chosen is no longer where it was; it is again when the drag is given up.
+    driver.session.preview(move(driver.document, [driver.node("drill").id], 1, 0, 0))
+    driver.settle()
+    assert not inspector.picture.wings.wings
+    driver.click_at((20, 10, 20))
+    driver.session.cancel()
+    driver.settle()
+    driver.qtbot.waitUntil(lambda: inspector.source.settled)
+    assert inspector.chosen.edge >= 0 and len(inspector.picture.wings.wings) == 4
     driver.session.do("move", [driver.node("drill").id], 3, 0, 0, label="Move")
     driver.settle()
     driver.qtbot.waitUntil(lambda: inspector.source.settled and inspector.mesh is not None)

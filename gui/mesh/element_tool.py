@@ -81,6 +81,8 @@ class ElementTool(ClickTool):
         self._show(kind, tuple(elements))
 
     def clicked(self, position: QPointF) -> None:
+        if self._source.mesh is not None and not self._source.up_to_date:
+            return  # what is in the picture is on its way
         kind, elements, current, solid = self._at(position)
         if solid and solid != self._source.solid:
             self.solid_asked.emit(solid)
@@ -113,13 +115,13 @@ class ElementTool(ClickTool):
         from ...render.mesh.element_pick import REACH, element_at, pick_near
 
         viewer, mesh = self._viewer, self._source.mesh
-        if viewer is None:
+        if viewer is None or (mesh is not None and not self._source.up_to_date):
             return None, [], -1, ""
         x, y = position.x(), position.y()
         pick = pick_near(viewer, x, y)
         if pick is None:
             return None, [], -1, ""
-        if mesh is None or pick.solid_id != self._source.solid or not self._source.up_to_date:
+        if mesh is None or pick.solid_id != self._source.solid:
             return None, [], -1, pick.solid_id
         kind = KINDS[self.mode]
         found = element_at(viewer, mesh, pick.triangle, kind, x, y, np.inf if self.mode == "loop" else REACH)

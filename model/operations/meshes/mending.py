@@ -31,12 +31,12 @@ def repair_mesh(
     mesh = mesh_of_node(document, node_id)
     before = mesh.in_world()
     try:
-        *after, _ = mended(*before, tolerance, repairs, longest)
+        points, faces, _ = mended(*before, tolerance, repairs, longest)
     except Refusal as refusal:
         raise Refusal(f"“{find(document, node_id).label}”: {refusal}") from None
-    if all(np.array_equal(one, other) for one, other in zip(before, after, strict=True)):
+    if np.array_equal(points, before[0]) and np.array_equal(faces, before[1]):
         return document
-    return with_mesh(document, node_id, *mesh.from_world(*after))
+    return with_mesh(document, node_id, *mesh.from_world(points, faces))
 
 
 def repair_of(
