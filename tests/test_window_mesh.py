@@ -153,7 +153,7 @@ def check_walks(driver, inspector):
     for _ in range(4):
         driver.keys("Period", viewport)
         walked.append(inspector.chosen.edge)
-        assert left in mesh.winged.table[walked[-1], [LEFT, RIGHT]] and inspector.chosen.sides[0] == left
+        assert left in mesh.winged.table[walked[-1], [LEFT, RIGHT]]
     loop = next(loop for loop in range(mesh.lists.loop_count) if edge in [e for e, _ in mesh.winged.loop(loop)]
                 and mesh.lists.loop_faces()[loop] == left)  # fmt: skip
     assert walked[-1] == edge and walked[:4] == rotated([e for e, _ in mesh.winged.loop(loop)], edge)
@@ -323,6 +323,7 @@ def check_edits(driver, inspector):
     driver.click_at((20, 10, 20))
     assert fault("mesh_split_edge") is None
     run("mesh_split_edge")
+    assert "split_mesh_edge(" in driver.session.log[-1]
     follow(driver, inspector)
     after = inspector.mesh.topology
     assert (after.vertices, after.edges, after.faces) == (before.vertices + 1, before.edges + 3, before.faces + 2)

@@ -9,7 +9,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal
 
 from ...model.mesh.selecting import Flags, Kind, converted, flags
-from ...model.mesh.winged import END, LEFT, LEFT_AFTER, LEFT_BEFORE, RIGHT, RIGHT_AFTER, RIGHT_BEFORE, START
+from ...model.mesh.winged import END, LEFT_AFTER, LEFT_BEFORE, RIGHT_AFTER, RIGHT_BEFORE, START
 
 if TYPE_CHECKING:
     from ...model.mesh.inspected import InspectedMesh
@@ -125,11 +125,3 @@ class Chosen(QObject):
         self.current, self.reversed = onward, turned
         self.changed.emit()
         return True
-
-    @property
-    def sides(self) -> tuple[int, int]:
-        """The faces left and right of the only edge, as it is seen; -1 for none."""
-        if self.mesh is None or self.edge < 0:
-            return -1, -1
-        left, right = self.mesh.winged.table[self.edge, [LEFT, RIGHT]].tolist()
-        return (right, left) if self.reversed else (left, right)

@@ -72,11 +72,6 @@ class ElementPicture:
         for marks in self._marks.values():
             marks.follow_sections()
 
-    def forget(self) -> None:
-        """The viewer goes."""
-        self._marks.clear()
-        self.wings = None
-
     def _make(self, viewer: Viewer) -> None:
         if self.wings is None:
             from ...render.mesh.element_marks import ElementMarks
