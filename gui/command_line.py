@@ -206,6 +206,8 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
         ("bsp", "bsp", "add_options", "bsp", "the BSP tree that hidden surfaces are sorted by: its figures as JSON"),
         ("pipeline", "pipeline", "add_options", "pipeline",
          "a point on its way to its pixel: matrices, stages, and counts of polygons and pixels, as JSON"),
+        ("mesh", "mesh", "add_options", "mesh",
+         "vertices, normals, faces and winged edges of the solids: their figures as JSON, or a table as CSV"),
         ("diagram", "diagram", "add_options", "diagram", "the CSG diagram of the tree as SVG"),
         ("font", "font", "add_options", "font", "a font's facts, a glyph, or a text as outlines, as JSON"),
         ("bitmap", "bitmap", "add_options", "bitmap", "a bitmap's header as JSON, its pixels as PNG"),

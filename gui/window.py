@@ -35,6 +35,7 @@ from .evaluation import Evaluation
 from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
+from .mesh.panel import MeshPanel
 from .palette.palette import Palette
 from .panels.figures import FigureUse
 from .panels.measured import measured
@@ -187,6 +188,7 @@ class MainWindow(QMainWindow):
         self.bsp = BspPanel(self)
         self.surfaces = SurfacesPanel(self)
         self.pipeline = PipelinePanel(self)
+        self.mesh = MeshPanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -208,6 +210,7 @@ class MainWindow(QMainWindow):
                 "BSP": self.bsp,
                 "Surfaces": self.surfaces,
                 "Pipeline": self.pipeline,
+                "Mesh": self.mesh,
             },
             bottom={
                 "Problems": self.problems,
@@ -219,6 +222,7 @@ class MainWindow(QMainWindow):
         self.docks["Surfaces"].hide()
         self.docks["Pipeline"].hide()
         let_float(self.docks["Pipeline"])
+        self.docks["Mesh"].hide()
 
     # What happens.
 
@@ -237,6 +241,7 @@ class MainWindow(QMainWindow):
             self.sections,
             self.script,
             self.surfaces,
+            self.mesh,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)

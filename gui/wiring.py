@@ -20,6 +20,7 @@ def connect(window: MainWindow) -> None:
     _drawing(window)
     _editing(window)
     _surfaces(window)
+    _mesh(window)
     window.parameters.sets.import_asked.connect(lambda: ask_import(window))
     window.parameters.sets.export_asked.connect(lambda: ask_export(window))
     window.files.path_changed.connect(window.follow_title)
@@ -59,6 +60,7 @@ def _words(window: MainWindow) -> None:
         window.curve,
         window.surfaces,
         window.pipeline,
+        window.mesh,
         window.light_tool,
         window.mapping_tool,
     ):
@@ -189,3 +191,33 @@ def _surfaces(window: MainWindow) -> None:
         other.began.connect(give_way)
         other.ended.connect(lambda: light.set_aside(False))
     window.files.opened.connect(mapping.end)
+
+
+def _mesh(window: MainWindow) -> None:
+    """The clicks are the Mesh panel's while it is in front, until another tool begins."""
+    window.docks["Mesh"].visibilityChanged.connect(window.mesh.set_in_front)
+
+    def made() -> None:
+        inspector = window.mesh.inspector
+        assert inspector is not None
+        tool = inspector.tool
+        tool.said.connect(window.status.set_hint)
+        tool.began.connect(lambda: window.handles.set_hidden(True))
+        tool.ended.connect(lambda: window.handles.set_hidden(False))
+        for other in (window.draw, window.face_plane, window.engrave):
+            tool.began.connect(other.end)
+        for ended in (tool.began, tool.ended):
+            ended.connect(window.actions_.refresh)
+        tool.began.connect(window.measure.end)
+        tool.began.connect(window.sight.end)
+        for other in (
+            window.measure,
+            window.sight,
+            window.draw,
+            window.face_plane,
+            window.engrave,
+            window.mapping_tool,
+        ):
+            other.began.connect(tool.end)
+
+    window.mesh.made.connect(made)

@@ -22,6 +22,7 @@ from .scripting import (
     proximity,
     shapes,
     sight,
+    structures,
     surfaces,
 )
 from .scripting import outlines as flat
@@ -36,6 +37,7 @@ from .scripting.pipelines import *  # noqa: F403
 from .scripting.proximity import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
+from .scripting.structures import *  # noqa: F403
 from .scripting.surfaces import *  # noqa: F403
 
 __all__ = ["Document", "Refusal"]
@@ -51,3 +53,4 @@ __all__ += surfaces.__all__
 __all__ += faults.__all__
 __all__ += pipelines.__all__
 __all__ += proximity.__all__
+__all__ += structures.__all__

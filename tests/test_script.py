@@ -31,9 +31,10 @@ from solidtree.model.scripting import (
     proximity,
     shapes,
     sight,
+    structures,
 )
 
-PARTS = (shapes, letters, joining, documents, hidden_surfaces, sight, faults, pipelines, proximity)
+PARTS = (shapes, letters, joining, documents, hidden_surfaces, sight, faults, pipelines, proximity, structures)
 
 
 def test_the_examples_in_the_words_are_true():

@@ -13,6 +13,7 @@ from ... import resources
 from ...model.editing.commands import Command
 from ..icons import icon
 from .arrange import ARRANGE_SEPARATORS
+from .mesh import MESH_SEPARATORS
 from .surfaces import SURFACE_SEPARATORS
 
 if TYPE_CHECKING:
@@ -37,12 +38,13 @@ ORDER = {
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces bitmap_inspector "
-    "follow_vertex - tool_menu",
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces "
+    "Tools/Mesh_elements Tools/Walk_along_edges Tools/Mesh Tools/Edit_mesh bitmap_inspector follow_vertex - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts colour_by_node translucent sections "
     "cull_back_faces automatic_clipping - hidden_surface "
-    "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel pipeline_panel panels",
+    "View/Hidden_surfaces View/Style View/Shading View/Theme - "
+    "diagram bsp_panel surfaces_panel mesh_panel pipeline_panel panels",
     "Help": "palette cheat_sheet shortcuts - about",
 }
 """What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.
@@ -80,7 +82,11 @@ def fill_menus(window: MainWindow) -> None:
                 menus[title].addSeparator()
             else:
                 menus[title].addAction(entries.get(name) or window.actions_[name])  # moves it to the end
-    for place, names in (("Tools/Arrange", ARRANGE_SEPARATORS), ("Tools/Surfaces", SURFACE_SEPARATORS)):
+    for place, names in (
+        ("Tools/Arrange", ARRANGE_SEPARATORS),
+        ("Tools/Surfaces", SURFACE_SEPARATORS),
+        ("Tools/Mesh", MESH_SEPARATORS),
+    ):
         for name in names:
             menus[place].insertSeparator(window.actions_[name])
 

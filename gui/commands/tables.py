@@ -16,6 +16,7 @@ from .fonts import FONT_COMMANDS
 from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
+from .mesh import MESH_COMMANDS
 from .nodes import NODE_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
@@ -56,5 +57,6 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
         (SURFACE_COMMANDS, window),
+        (MESH_COMMANDS, window),
     ):
         actions.add(table, context)
