@@ -204,20 +204,12 @@ def _mesh(window: MainWindow) -> None:
         tool.said.connect(window.status.set_hint)
         tool.began.connect(lambda: window.handles.set_hidden(True))
         tool.ended.connect(lambda: window.handles.set_hidden(False))
-        for other in (window.draw, window.face_plane, window.engrave):
+        others = (window.measure, window.sight, window.draw, window.face_plane, window.engrave, window.pipeline.tool)
+        for other in others:
             tool.began.connect(other.end)
-        for ended in (tool.began, tool.ended):
-            ended.connect(window.actions_.refresh)
-        tool.began.connect(window.measure.end)
-        tool.began.connect(window.sight.end)
-        for other in (
-            window.measure,
-            window.sight,
-            window.draw,
-            window.face_plane,
-            window.engrave,
-            window.mapping_tool,
-        ):
+        for other in (*others, window.mapping_tool):
             other.began.connect(tool.end)
+        for signal in (tool.began, tool.ended):
+            signal.connect(window.actions_.refresh)
 
     window.mesh.made.connect(made)
