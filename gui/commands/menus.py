@@ -39,7 +39,7 @@ ORDER = {
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces "
-    "Tools/Mesh_elements Tools/Walk_along_edges Tools/Mesh Tools/Edit_mesh bitmap_inspector follow_vertex - tool_menu",
+    "Tools/Mesh bitmap_inspector follow_vertex - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts colour_by_node translucent sections "
     "cull_back_faces automatic_clipping - hidden_surface "
@@ -53,12 +53,17 @@ A command that is not named here stands at the top, so that it is seen.
 """
 
 
+WITHIN = {"Tools/Mesh": ("Tools/Mesh elements", "Tools/Walk along edges", "Tools/Edit mesh")}
+"""Submenus that stand at the end of another one."""
+
+
 def in_menu_order(menu: str, commands: Iterable[Command]) -> list[Command]:
     """Those of the commands that stand in a menu or in its submenus, from top to bottom."""
     places = {name: place for place, name in enumerate(ORDER.get(menu, "").split())}
 
     def place(command: Command) -> int:
-        return places.get(command.name, places.get(command.menu.replace(" ", "_"), -1))
+        outer = next((outer for outer, inner in WITHIN.items() if command.menu in inner), command.menu)
+        return places.get(command.name, places.get(outer.replace(" ", "_"), -1))
 
     return sorted((command for command in commands if command.menu.split("/")[0] == menu), key=place)
 
@@ -82,6 +87,11 @@ def fill_menus(window: MainWindow) -> None:
                 menus[title].addSeparator()
             else:
                 menus[title].addAction(entries.get(name) or window.actions_[name])  # moves it to the end
+    for place, inner in WITHIN.items():
+        menus[place].addSeparator()
+        for name in inner:
+            menus[name.split("/")[0]].removeAction(menus[name].menuAction())
+            menus[place].addMenu(menus[name])
     for place, names in (
         ("Tools/Arrange", ARRANGE_SEPARATORS),
         ("Tools/Surfaces", SURFACE_SEPARATORS),
