@@ -13,6 +13,7 @@ from ... import resources
 from ...model.editing.commands import Command
 from ..icons import icon
 from .arrange import ARRANGE_SEPARATORS
+from .normals import NORMAL_SEPARATORS
 from .surfaces import SURFACE_SEPARATORS
 
 if TYPE_CHECKING:
@@ -37,7 +38,8 @@ ORDER = {
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces bitmap_inspector - tool_menu",
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces Tools/Normals "
+    "bitmap_inspector - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
     "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel panels",
@@ -78,7 +80,8 @@ def fill_menus(window: MainWindow) -> None:
                 menus[title].addSeparator()
             else:
                 menus[title].addAction(entries.get(name) or window.actions_[name])  # moves it to the end
-    for place, names in (("Tools/Arrange", ARRANGE_SEPARATORS), ("Tools/Surfaces", SURFACE_SEPARATORS)):
+    for place, names in (("Tools/Arrange", ARRANGE_SEPARATORS), ("Tools/Surfaces", SURFACE_SEPARATORS),
+                         ("Tools/Normals", NORMAL_SEPARATORS)):  # fmt: skip
         for name in names:
             menus[place].insertSeparator(window.actions_[name])
 

@@ -17,6 +17,7 @@ from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
 from .nodes import NODE_COMMANDS
+from .normals import NORMAL_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
 from .relief import RELIEF_COMMANDS
@@ -54,5 +55,6 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
         (SURFACE_COMMANDS, window),
+        (NORMAL_COMMANDS, window),
     ):
         actions.add(table, context)
