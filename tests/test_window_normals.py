@@ -99,3 +99,66 @@ def test_split_by_angle_leads_to_the_field_and_a_part_follows_its_parent(make_wi
     assert driver.field("crease").placeholderText() == "as its parent: 40"
     driver.window.actions_.run("split_normals")
     assert driver.window.focusWidget() is driver.field("crease")
+
+
+OPEN_BOX = """v 0 0 0
+v 10 0 0
+v 10 10 0
+v 0 10 0
+v 0 0 10
+v 10 0 10
+v 10 10 10
+v 0 10 10
+f 4 3 2 1
+f 1 2 6 5
+f 2 3 7 6
+f 3 4 8 7
+f 4 1 5 8
+"""
+"""An open box: no lid."""
+
+
+def faces_that_look_outwards(driver):
+    """How many of the five sides do, by their needles."""
+    from solidtree.model.mesh.needles import face_needles
+
+    (mesh,) = driver.window.viewport.viewer.scene.meshes.values()
+    needles = face_needles(mesh)
+    return int((np.einsum("ij,ij->i", needles.feet - 5, needles.normals) > 0).sum()), needles.total
+
+
+def test_faces_of_an_imported_mesh_are_turned_and_made_to_agree(make_window, tmp_path):
+    path = tmp_path / "open box.obj"
+    path.write_text(OPEN_BOX.replace("f 2 3 7 6", "f 6 7 3 2"))
+    driver = make_window()
+    driver.window.files.import_file(str(path))
+    driver.qtbot.waitUntil(lambda: not driver.window.files.background.working and bool(driver.document.solids))
+    driver.settle()
+    root = driver.document.solids[0].id
+    driver.session.select([root])
+    outwards, total = faces_that_look_outwards(driver)
+    assert 0 < outwards < total
+
+    def run(name):
+        driver.window.actions_.run(name)
+        driver.qtbot.waitUntil(lambda: not driver.window.files.background.working)
+        driver.settle()
+
+    run("consistent_normals")
+    assert faces_that_look_outwards(driver) == (total, total)
+    steps = len(driver.session.log)
+    assert driver.session.log[-1] == f"repair_mesh('{root}', ['orient'])"
+    run("consistent_normals")
+    assert len(driver.session.log) == steps and "agree already" in driver.window.status.currentMessage()
+    run("flip_normals")
+    assert faces_that_look_outwards(driver) == (0, total)
+    driver.session.undo()
+    driver.settle()
+    assert faces_that_look_outwards(driver) == (total, total)
+
+
+def test_faces_of_what_is_no_mesh_are_not_turned(make_window):
+    driver = make_window(document_of(part=box(10)))
+    assert not driver.window.actions_["flip_normals"].isEnabled()
+    driver.session.select([driver.node("part").id])
+    assert "“part” is no mesh" in driver.window.actions_["flip_normals"].toolTip()

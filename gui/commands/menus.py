@@ -41,8 +41,9 @@ ORDER = {
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces Tools/Normals "
     "bitmap_inspector - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
-    "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
-    "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel panels",
+    "view_left - perspective tolerances grid ghosts face_normals vertex_normals colour_by_node "
+    "translucent sections - hidden_surface View/Hidden_surfaces View/Style View/Shading View/Theme - "
+    "diagram bsp_panel surfaces_panel panels",
     "Help": "palette cheat_sheet shortcuts - about",
 }
 """What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.

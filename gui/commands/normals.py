@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ...model.document.outlines import Outlines
 from ...model.document.tree import find
 from ...model.editing.commands import Command
+from ..normals.turning import flip, make_consistent, no_mesh
 
 if TYPE_CHECKING:
     from ..window import MainWindow
@@ -62,14 +63,18 @@ def _ask_angle(window: MainWindow) -> None:
 
 NORMAL_COMMANDS: tuple[Command, ...] = (
     *(
-        Command(f"{kind}_normals", title, MENU, lambda w, kind=kind: w.needles.toggle(kind), _no_solid, keys,
+        Command(f"{kind}_normals", title, "View", lambda w, kind=kind: w.needles.toggle(kind), _no_solid, keys,
                 f"{kind}_normals", f"{tip}, of the selected nodes or of all",
                 checked=lambda w, kind=kind: w.needles.is_on(kind))
         for kind, title, keys, tip in (
-            ("face", "Show normals of faces", "Alt+N", "A needle from the middle of each flat face to its outside"),
-            ("vertex", "Show normals of vertices", "", "Needles along the normals that smooth shading goes by"),
+            ("face", "Normals of faces", "Alt+N", "A needle from the middle of each flat face to its outside"),
+            ("vertex", "Normals of vertices", "", "Needles along the normals that smooth shading goes by"),
         )
     ),
+    Command("flip_normals", "Flip", MENU, flip, no_mesh, "", "flip_normals",
+            "Turn the faces of the selected meshes to their other side; a closed one is shown from outside either way"),
+    Command("consistent_normals", "Make consistent", MENU, make_consistent, no_mesh, "", "consistent_normals",
+            "Turn the faces of the selected meshes that disagree with their neighbours, and all to the outside"),
     Command("smooth_faces", "Smooth", MENU, _crease("Smooth faces", 180.0), _no_surface, "", "smooth_faces",
             "Shade the selected nodes without any edge: a crease angle of 180°"),
     Command("split_normals", "Split by angle …", MENU, _ask_angle, _no_surface, "", "split_normals",
