@@ -36,6 +36,7 @@ from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
 from .mesh.panel import MeshPanel
+from .normals.needle_view import NeedleView
 from .palette.palette import Palette
 from .panels.figures import FigureUse
 from .panels.measured import measured
@@ -132,6 +133,8 @@ class MainWindow(QMainWindow):
         self.viewport.add_tool(self.light_tool)
         self.mapping_tool = MappingTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.mapping_tool)
+        self.needles = NeedleView(self.viewport, self.session)
+        self.viewport.add_tool(self.needles)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()

@@ -71,6 +71,7 @@ def _words(window: MainWindow) -> None:
         window.files.notice,
         window.figure_use.said,
         window.measure.said,
+        window.needles.said,
     ):
         said.connect(status.say)
     window.place_on_face.said.connect(status.set_hint)

@@ -11,6 +11,7 @@ from . import camera as camera_value
 from .camera import Camera, fit, ray, with_projection
 from .curves.line_pick import LinePicker
 from .ghosts.ghosts import Ghost, Ghosts
+from .ghosts.needles import NormalNeedles
 from .ground import Ground
 from .handles.overlay import Overlay
 from .look import Look, look_of
@@ -47,6 +48,7 @@ class Viewer:
         self.ground = Ground(self.renderer, look)
         self.scene.painter.over_ground()
         self.ghosts = Ghosts(self.renderer, look)
+        self.needles = NormalNeedles(self.renderer, look)
         self.overlay = Overlay(self.window, look)
         self.cube = ViewCube(self.window, look, layer=2)
         self.camera = standard_view(Camera(), "iso")
@@ -72,6 +74,7 @@ class Viewer:
         self.scene.set_line_scale(scale)
         self.ground.set_line_scale(scale)
         self.ghosts.set_line_scale(scale)
+        self.needles.set_line_scale(scale)
         self.cube.resize(*self.size, scale)
         self.needs_render = True
 
@@ -119,6 +122,11 @@ class Viewer:
         self.ghosts.show(ghosts)
         self.needs_render = True
 
+    def show_needles(self, lines: Mapping[str, NDArray[np.float64]]) -> None:
+        """Normals (n, 2, 3) from foot to tip by kind, "face" or "vertex"."""
+        self.needles.show(lines, self.scene.sections)
+        self.needs_render = True
+
     def set_selection(self, paths: Iterable[tuple[str | int, ...]]) -> None:
         """See `Scene.set_selection`."""
         self.scene.set_selection(paths)
@@ -135,6 +143,7 @@ class Viewer:
     def set_sections(self, sections: "Iterable[Section]", dragged: bool = False) -> None:
         """See `Scene.set_sections`."""
         self.scene.set_sections(sections, dragged)
+        self.needles.clip(self.scene.sections)
         self.needs_render = True
 
     def set_theme(self, theme: Look | str) -> None:
@@ -143,6 +152,7 @@ class Viewer:
         self.scene.set_look(look)
         self.ground.set_look(look)
         self.ghosts.set_look(look)
+        self.needles.set_look(look)
         self.overlay.set_look(look)
         self.cube.set_look(look)
         self.needs_render = True

@@ -14,6 +14,7 @@ from ...model.editing.commands import Command
 from ..icons import icon
 from .arrange import ARRANGE_SEPARATORS
 from .mesh import MESH_SEPARATORS
+from .normals import NORMAL_SEPARATORS
 from .surfaces import SURFACE_SEPARATORS
 
 if TYPE_CHECKING:
@@ -38,10 +39,10 @@ ORDER = {
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces "
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces Tools/Normals "
     "Tools/Mesh bitmap_inspector follow_vertex - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
-    "view_left - perspective tolerances grid ghosts colour_by_node translucent sections "
+    "view_left - perspective tolerances grid ghosts face_normals vertex_normals colour_by_node translucent sections "
     "cull_back_faces automatic_clipping - hidden_surface "
     "View/Hidden_surfaces View/Style View/Shading View/Theme - "
     "diagram bsp_panel surfaces_panel mesh_panel pipeline_panel panels",
@@ -95,6 +96,7 @@ def fill_menus(window: MainWindow) -> None:
     for place, names in (
         ("Tools/Arrange", ARRANGE_SEPARATORS),
         ("Tools/Surfaces", SURFACE_SEPARATORS),
+        ("Tools/Normals", NORMAL_SEPARATORS),
         ("Tools/Mesh", MESH_SEPARATORS),
     ):
         for name in names:

@@ -18,6 +18,7 @@ from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
 from .mesh import MESH_COMMANDS
 from .nodes import NODE_COMMANDS
+from .normals import NORMAL_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
 from .pipeline import PIPELINE_COMMANDS
@@ -58,5 +59,6 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (ARRANGE_COMMANDS, window),
         (SURFACE_COMMANDS, window),
         (MESH_COMMANDS, window),
+        (NORMAL_COMMANDS, window),
     ):
         actions.add(table, context)
