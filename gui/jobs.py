@@ -36,6 +36,10 @@ class Jobs(QObject):
     drawn = Signal(object, tuple, str)
     """The Page that `draw` was asked for last, and the messages about its nodes; or None, and why there is none."""
     drawing_progress = Signal(int, int, str)
+    faults_found = Signal(object, str)
+    """A NodeFaults (model/checking/document_faults.py) for each node that `find_faults` was asked for last; or None,
+    and why there are none."""
+    faults_progress = Signal(int, int, str)
     _told = Signal(object)
 
     def __init__(self, make_lane: Callable[[Callable[[LaneMessage], None]], Lane], parent: QObject) -> None:
@@ -48,6 +52,7 @@ class Jobs(QObject):
         self._partition: int | None = None
         self._ahead = False  # nobody waits for the partition
         self._drawing: int | None = None
+        self._finding: int | None = None
         self.lane: Lane | None = None
 
     @property
@@ -111,12 +116,29 @@ class Jobs(QObject):
         self._exports.add(self._started().draw(document, plan, tolerance, solid, path))
         self.began.emit()
 
+    def find_faults(self, document: Document, ids: tuple[str, ...] = (), tolerance: float = 0.001) -> None:
+        """Look for the faults of nodes, none: of all that is visible, instead of those asked for before; `faults_found`
+        brings them."""
+        self._finding = self._started().find_faults(document, tuple(ids), tolerance)
+
+    def stop_finding(self) -> None:
+        """Give up looking for faults; `faults_found` does not come."""
+        if self._finding is not None and self.lane is not None:
+            self._finding = None
+            self.lane.stop_finding()
+
+    @property
+    def finding(self) -> bool:
+        return self._finding is not None
+
     def cancel(self) -> None:
         """Give up all of it."""
-        if self.lane is not None and (self.at_work or self._drawing is not None):
+        if self.lane is not None and (self.at_work or self._drawing is not None or self.finding):
             self.lane.cancel()
         if self._drawing is not None:
             self._end_drawing("it was cancelled")
+        if self._finding is not None:
+            self._end_finding(None, "it was cancelled")
         if self._exports:
             self._exports.clear()
             self.notice.emit("The export was cancelled; no file was written")
@@ -138,7 +160,7 @@ class Jobs(QObject):
         return self.lane
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.worker.messages import Died, Drawn, Exported, Partitioned, Progress
+        from ..model.worker.messages import Died, Drawn, Exported, FaultsFound, Partitioned, Progress
 
         if self._closed:
             return
@@ -152,9 +174,13 @@ class Jobs(QObject):
             case Drawn(request, page, messages, fault) if request == self._drawing:
                 self._drawing = None
                 self.drawn.emit(page, messages, fault or "")
+            case FaultsFound(request, found, fault) if request == self._finding:
+                self._end_finding(found, fault or "")
             case Progress(request, done, total, label):
                 if request == self._drawing:
                     self.drawing_progress.emit(done, total, label)
+                elif request == self._finding:
+                    self.faults_progress.emit(done, total, label)
                 elif request in self._exports:
                     self.progress.emit(done, total, f"Exporting {label}")
                 elif request == self._partition and not self._exports:
@@ -167,6 +193,12 @@ class Jobs(QObject):
                 self._sorted(None, 0.0, f"{reason}, twice")
             case Died(request, reason, given_up) if given_up and request is not None and request == self._drawing:
                 self._end_drawing(f"{reason}, twice")
+            case Died(request, reason, given_up) if given_up and request is not None and request == self._finding:
+                self._end_finding(None, f"{reason}, twice")
+
+    def _end_finding(self, found: object, why: str) -> None:
+        self._finding = None
+        self.faults_found.emit(found, why)
 
     def _end_drawing(self, why: str) -> None:
         self._drawing = None

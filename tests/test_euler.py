@@ -8,7 +8,7 @@ import pytest
 from solidtree.model.document.errors import Refusal
 from solidtree.model.mesh.euler import EditedMesh
 from solidtree.model.mesh.lists import of_polygons, of_triangles
-from solidtree.model.mesh.topology import faults, topology
+from solidtree.model.mesh.topology import contradictions, topology
 from solidtree.model.mesh.walks import stars
 from solidtree.model.mesh.winged import LEFT, RIGHT, START, winged_edge
 from solidtree.model.script import box, cylinder, document_of, evaluate, sphere
@@ -42,7 +42,7 @@ def test_an_edge_is_split():
     edited = EditedMesh(winged_edge(of_polygons(CUBE, SQUARES)))
     vertex, edge = edited.split_edge(0, (0.0, 0.5, 0.0))
     mesh = edited.result()
-    assert (vertex, edge) == (8, 12) and counts(mesh) == (9, 13, 6) and faults(mesh) == []
+    assert (vertex, edge) == (8, 12) and counts(mesh) == (9, 13, 6) and contradictions(mesh) == []
     assert volume(mesh) == pytest.approx(1.0) and len(mesh.star(8)) == 2
 
 
@@ -52,14 +52,14 @@ def test_a_face_is_split_and_its_edge_turned():
         sides = edited.sides(face)
         edited.split_face(sides[0], sides[2])
     mesh = edited.result()
-    assert counts(mesh) == (8, 18, 12) and faults(mesh) == [] and volume(mesh) == pytest.approx(1.0)
+    assert counts(mesh) == (8, 18, 12) and contradictions(mesh) == [] and volume(mesh) == pytest.approx(1.0)
     diagonals = [
         edge for edge in range(18) if np.linalg.norm(np.diff(mesh.vertices[mesh.table[edge, :2]], axis=0)) > 1.1
     ]
     ends = set(mesh.table[diagonals[0], :2].tolist())
     edited.flip(diagonals[0])
     other = edited.result()
-    assert faults(other) == [] and counts(other) == (8, 18, 12) and volume(other) == pytest.approx(1.0)
+    assert contradictions(other) == [] and counts(other) == (8, 18, 12) and volume(other) == pytest.approx(1.0)
     assert not ends & set(other.table[diagonals[0], :2].tolist())
 
 
@@ -69,7 +69,7 @@ def test_an_edge_is_collapsed_with_the_triangles_beside_it():
     kept = edited.collapse(7, point=(0, 0, 9))
     mesh = edited.result()
     v, e, f = counts(before)
-    assert counts(mesh) == (v - 1, e - 3, f - 2) and faults(mesh) == [] and topology(mesh).genus == 0
+    assert counts(mesh) == (v - 1, e - 3, f - 2) and contradictions(mesh) == [] and topology(mesh).genus == 0
     assert (mesh.vertices[kept] == (0, 0, 9)).all()
 
 
@@ -77,7 +77,7 @@ def test_collapsing_beside_a_square_leaves_a_triangle():
     edited = EditedMesh(winged_edge(of_polygons(CUBE, SQUARES)))
     edited.collapse(0)
     mesh = edited.result()
-    assert counts(mesh) == (7, 11, 6) and faults(mesh) == []
+    assert counts(mesh) == (7, 11, 6) and contradictions(mesh) == []
     assert sorted(np.diff(mesh.lists().loop_starts).tolist()) == [3, 3, 4, 4, 4, 4]
 
 
@@ -143,7 +143,7 @@ def test_thousands_of_operators_keep_it_valid(make, seed):
             break
         if sum(done.values()) % 10 == 0:
             now = edited.result()
-            assert faults(now) == []
+            assert contradictions(now) == []
             found = topology(now)
             assert (found.euler, found.components, found.borders, found.genus, found.fans, found.repeated) == (
                 start.euler, start.components, start.borders, start.genus, 0, 0

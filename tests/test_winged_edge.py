@@ -9,7 +9,7 @@ import pytest
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.mesh.lists import of_facets, of_polygons, of_triangles
-from solidtree.model.mesh.topology import component_of_faces, faults, topology
+from solidtree.model.mesh.topology import component_of_faces, contradictions, topology
 from solidtree.model.mesh.walks import bends, borders, chain, stars
 from solidtree.model.mesh.winged import (
     COLUMNS,
@@ -61,7 +61,7 @@ def test_the_box_has_the_textbooks_lists_and_table():
     ends = mesh.table[:, :2]
     assert set(ends[row[LEFT_BEFORE]]) == {1, 0} and set(ends[row[LEFT_AFTER]]) == {2, 3}
     assert set(ends[row[RIGHT_BEFORE]]) == {6, 2} and set(ends[row[RIGHT_AFTER]]) == {0, 4}
-    assert faults(mesh) == [] and faces_of(mesh.lists()) == faces_of(lists)
+    assert contradictions(mesh) == [] and faces_of(mesh.lists()) == faces_of(lists)
 
 
 def test_facets_become_polygons_with_their_holes():
@@ -78,7 +78,7 @@ def test_facets_become_polygons_with_their_holes():
     mesh = winged_edge(lists)
     found = topology(mesh)
     assert found.genus == 1 and found.euler == 0 and found.loops - found.faces == 2
-    assert faults(mesh) == [] and faces_of(mesh.lists()) == faces_of(lists)
+    assert contradictions(mesh) == [] and faces_of(mesh.lists()) == faces_of(lists)
 
 
 def test_loops_that_touch_in_a_vertex_stay_apart():
@@ -99,7 +99,7 @@ def test_reversing_edges_swaps_faces_and_wings():
     mesh = winged_edge(of_polygons(CUBE, SQUARES))
     some = np.array([0, 3, 7, 11])
     other = reversed_edges(mesh, some)
-    assert faults(other) == [] and faces_of(other.lists()) == faces_of(mesh.lists())
+    assert contradictions(other) == [] and faces_of(other.lists()) == faces_of(mesh.lists())
     one, two = mesh.table[3], other.table[3]
     assert (one[START], one[END], one[LEFT], one[RIGHT]) == (two[END], two[START], two[RIGHT], two[LEFT])
     assert (one[LEFT_BEFORE], one[LEFT_AFTER]) == (two[RIGHT_BEFORE], two[RIGHT_AFTER])
@@ -121,7 +121,7 @@ def test_open_and_branching_meshes_are_described():
     assert found.repeated == 2 and found.components == 1 and not found.closed
     copies = np.flatnonzero(fan.copy_of != np.arange(len(fan)))
     assert len(copies) == 1 and set(fan.table[copies[0], :2]) == set(fan.table[fan.copy_of[copies[0]], :2]) == {0, 1}
-    assert faults(fan) == []
+    assert contradictions(fan) == []
     # Neighbours that run the same way: the side is there twice.
     wrong = winged_edge(of_triangles(CUBE, [(0, 1, 2), (0, 1, 4)]))
     assert topology(wrong).repeated == 2 and topology(wrong).border_edges == 6
@@ -184,7 +184,7 @@ def test_walks_of_random_meshes_are_those_of_brute_force():
         count = int(generator.integers(4, 30))
         triangles = np.array([generator.permutation(count)[:3] for _ in range(int(generator.integers(1, 60)))])
         mesh, _ = agrees(generator.random((count, 3)), triangles)
-        assert faults(mesh) == []
+        assert contradictions(mesh) == []
 
 
 def test_meshes_of_the_corpus_have_their_published_counts(corpus):

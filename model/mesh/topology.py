@@ -76,7 +76,7 @@ def component_of_faces(mesh: WingedEdge) -> Numbers:
     return rank[which]
 
 
-def faults(mesh: WingedEdge) -> list[str]:
+def contradictions(mesh: WingedEdge) -> list[str]:
     """Where a winged edge contradicts itself, in words; none in one that is sound."""
     table, found = mesh.table, []
     ends = table[:, [START, END]]

@@ -46,6 +46,17 @@ from .curves.outline_areas import combine_outlines, offset_outline, stroke_outli
 from .engraving import engrave
 from .fonts import carry_font, copy_font, edit_glyphs, release_font, reset_glyphs, transform_glyphs
 from .linking import check_definitions, insert_document, link, unlink
+from .meshes.editing import (
+    collapse_mesh_edge,
+    delete_mesh_faces,
+    flip_mesh_edge,
+    move_mesh_vertices,
+    reverse_mesh_faces,
+    split_mesh_edge,
+    split_mesh_face,
+)  # fmt: skip
+from .meshes.mending import repair_mesh
+from .meshes.mesh_nodes import convert_to_mesh
 from .outlining import make_solid, make_stencils, set_text_on_path
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
 from .parameters import declaring, delete_parameter, rename_parameter, reorder_parameter, set_parameter
@@ -180,6 +191,8 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         add_material, set_material, rename_material, delete_material, use_material, set_mapping,
         add_light, set_light, rename_light, delete_light, set_shading,
         engrave, carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
+        convert_to_mesh, repair_mesh, split_mesh_edge, flip_mesh_edge, collapse_mesh_edge, split_mesh_face,
+        delete_mesh_faces, reverse_mesh_faces, move_mesh_vertices,
         bend_segment,
         combine_outlines, offset_outline, stroke_outline,
         convert_to_path, convert_to_bspline, move_nodes, place_nodes, move_handle, set_handle, set_joints, insert_node,

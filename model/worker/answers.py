@@ -8,7 +8,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .job import Job
-from .messages import Drawn, Evaluated, Examined, Exported, LaneMessage, Partitioned, Progress
+from .messages import Drawn, Evaluated, Examined, Exported, FaultsFound, LaneMessage, Partitioned, Progress
 from .shown import Message, Part, Pictures, Shown
 
 if TYPE_CHECKING:
@@ -58,6 +58,8 @@ class Answers:
                 self._tell(Drawn(number, page, messages))
             case ("partitioned", number, tree, seconds):
                 self._tell(Partitioned(number, tree, seconds))
+            case ("faults", number, found):
+                self._tell(FaultsFound(number, found))
             case ("refused", _, reason):
                 self.refuse(job, reason)
             case ("superseded" | "prepared", _):
@@ -74,6 +76,8 @@ class Answers:
             self._tell(Drawn(job.number, None, (), reason))
         elif job.word == "partition":
             self._tell(Partitioned(job.number, None, 0.0, reason))
+        elif job.word == "faults":
+            self._tell(FaultsFound(job.number, None, reason))
         elif job.word == "evaluate":
             self._tell(Evaluated(job.number, Shown({}, {}, (Message("", "", reason, True),)), 0.0, 0))
 

@@ -48,6 +48,8 @@ def request_of(job: Job, pictures: set[bytes], surfaces: set[bytes]) -> tuple[An
         return "prepare", job.number, table, job.tolerances, job.solid
     if job.word == "draw":
         return "draw", job.number, table, job.tolerance or None, job.solid, job.plan, job.path
+    if job.word == "faults":
+        return "faults", job.number, table, job.tolerance, job.ids
     return "export", job.number, table, job.path, job.tolerance, job.solid, job.section
 
 

@@ -116,7 +116,19 @@ class Lane:
     def stop_drawing(self) -> None:
         """Give up the page that is being drawn, or waits; no answer comes."""
         with self._lock:
-            self._waiting.stop_drawing(self._number)
+            self._waiting.stop("draw", self._number)
+        self._wake()
+
+    def find_faults(self, document: Document, ids: tuple[str, ...], tolerance: float) -> int:
+        """Ask for the faults of these nodes within a tolerance in mm, of all that is visible where there are none; the
+        answer is a FaultsFound. A newer question takes its place, and `stop_finding` ends it.
+        """
+        return self._ask("faults", document, tolerance, ids=ids)
+
+    def stop_finding(self) -> None:
+        """Give up the faults that are looked for, or wait; no answer comes."""
+        with self._lock:
+            self._waiting.stop("faults", self._number)
         self._wake()
 
     def examine(self, document: Document, ids: tuple[str, ...], tolerance: float = DEFAULT_TOLERANCE) -> int:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from .shown import Message, Part, Shown
 
 if TYPE_CHECKING:
+    from ..checking.document_faults import NodeFaults
     from ..drafting.page import Page
     from ..partition.tree import Tree
 
@@ -77,6 +78,15 @@ class Drawn:
 
 
 @dataclass(frozen=True, slots=True)
+class FaultsFound:
+    """The answer to `Lane.find_faults`: a report for each node; or `fault`, why there are none."""
+
+    request: int
+    found: tuple[NodeFaults, ...] | None
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Cancelled:
     """The request was given up because the user asked for it."""
 
@@ -92,4 +102,6 @@ class Died:
     given_up: bool
 
 
-LaneMessage = Started | Progress | Evaluated | Examined | Exported | Partitioned | Drawn | Cancelled | Died
+LaneMessage = (
+    Started | Progress | Evaluated | Examined | Exported | Partitioned | Drawn | FaultsFound | Cancelled | Died
+)

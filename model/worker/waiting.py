@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from .job import Job
 
+ORDER = ("evaluate", "draw", "partition", "faults", "examine", "prepare")
+"""Of those that wait, the first of these words is done next."""
+
 
 class Waiting:
     """At most one request of each word, the newest, and all exports. For whoever holds the lane's lock."""
@@ -11,7 +14,7 @@ class Waiting:
     def __init__(self) -> None:
         self._exports: list[Job] = []
         self._newest: dict[str, Job] = {}
-        self._undrawn = 0  # drawings up to this number are no longer wanted
+        self._unwanted: dict[str, int] = {}  # by word: requests up to this number are no longer wanted
 
     def put(self, job: Job) -> None:
         """Let a request wait, instead of an older one of its word; what writes a file waits with all others."""
@@ -29,7 +32,12 @@ class Waiting:
         if "evaluate" not in self._newest and self._exports:
             return self._exports.pop(0)
         word = next(
-            (word for word in ("evaluate", "draw", "partition", "examine", "prepare") if word in self._newest), ""
+            (
+                word
+                for word in ("evaluate", "draw", "partition", "faults", "examine", "prepare")
+                if word in self._newest
+            ),
+            "",
         )
         return self._newest.pop(word, None)
 
@@ -37,21 +45,21 @@ class Waiting:
         self._exports.clear()
         self._newest.clear()
 
-    def stop_drawing(self, number: int) -> None:
-        """Drawings up to this number are not wanted any more."""
-        self._undrawn = number
-        self._newest.pop("draw", None)
+    def stop(self, word: str, number: int) -> None:
+        """Requests of this word up to this number are not wanted any more."""
+        self._unwanted[word] = number
+        self._newest.pop(word, None)
 
     def supersedes(self, job: Job) -> bool:
         """Whether something newer takes the place of what is at work."""
         if job.word == "partition":
             return "partition" in self._newest
-        if job.word == "draw":
-            return not job.path and ("draw" in self._newest or job.number <= self._undrawn)
+        if job.word in ("draw", "faults"):
+            return not job.path and (job.word in self._newest or job.number <= self._unwanted.get(job.word, 0))
         newer = self._newest.get("evaluate")
         return newer is not None and job.word != "export" and (newer.supersedes or job.supersedes)
 
     @property
     def urgent(self) -> bool:
         """Whether somebody waits for an answer, and not just for what is got ready or looked at beside."""
-        return bool(self._exports) or any(word in self._newest for word in ("evaluate", "partition", "draw"))
+        return bool(self._exports) or any(word in self._newest for word in ("evaluate", "partition", "draw", "faults"))

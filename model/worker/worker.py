@@ -186,6 +186,15 @@ class _Worker:
         write_page(path, drawn.page)
         return "exported", number, path
 
+    def _faults(self, number: int, table: dict[str, Any], tolerance: float, ids: tuple[str, ...]) -> tuple[Any, ...]:
+        from ..checking.document_faults import document_faults
+
+        progress = _Progress(self._connection, number, 100)
+        found = document_faults(
+            from_table(table), tolerance, ids or None, lambda label, share: progress.tell(int(100 * share), 100, label)
+        )
+        return "faults", number, found
+
 
 class _Progress:
     """Reports now and then, and stops when a newer request waits."""

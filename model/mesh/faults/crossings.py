@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .box_pairs import meeting
-from .sides import Flags, Floats, Numbers, normals_of
+from .sides import Flags, Floats, Numbers, distinct_places, normals_of
 
 SAME_PLANE = 1e-11
 """As shares of the mesh's size: what lies nearer to a plane is in it; what is shorter than OVERLAP is no crossing."""
@@ -37,7 +37,7 @@ def crossings(vertices: Floats, triangles: Numbers, told: Callable[[float], None
     rows = np.flatnonzero(lengths > 1e-16 * size * size)
     unit = normals / np.where(lengths > 0.0, lengths, 1.0)[:, None]
     corners = vertices[triangles]
-    same = places_of(vertices)[triangles]
+    same = distinct_places(vertices)[triangles]
     pairs: list[Numbers] = [np.zeros((0, 2), np.int64)]
     places: list[Floats] = [np.zeros((0, 3))]
     sizes: list[Floats] = [np.zeros(0)]
@@ -54,15 +54,6 @@ def crossings(vertices: Floats, triangles: Numbers, told: Callable[[float], None
         places.append(place)
         sizes.append(length)
     return Crossings(np.concatenate(pairs), np.concatenate(places), np.concatenate(sizes))
-
-
-def places_of(vertices: Floats) -> Numbers:
-    """(n,) a number for each vertex, the same for those at exactly one place."""
-    order = np.lexsort(vertices.T)
-    fresh = np.concatenate(([0], (np.diff(vertices[order], axis=0) != 0.0).any(axis=1))) if len(vertices) else order
-    found = np.empty(len(vertices), np.int64)
-    found[order] = np.cumsum(fresh)
-    return found
 
 
 def _met(

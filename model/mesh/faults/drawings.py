@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from ...document.errors import Refusal
-from .crossings import places_of
 from .nearness import Near, near_edges, near_vertices
-from .report import Finding, Progress
-from .sides import Floats, Numbers, Sides
-from .welding import joined, many
+from .report import Finding, Progress, told
+from .sides import Floats, Numbers, Sides, distinct_places
+from .welding import joined
+from .words import DRAWING_KINDS, many
 
 ROUNDING = 1e-12
 """Within this share of a drawing's size lines are taken to meet, whatever the tolerance."""
@@ -38,6 +39,21 @@ class DrawingFaults:
     short: int
     tolerance: float
     findings: tuple[Finding, ...]
+
+    @property
+    def sound(self) -> bool:
+        """Whether nothing was found."""
+        return not told(self, DRAWING_KINDS)
+
+    def __str__(self) -> str:
+        """One line for the user."""
+        return f"{many(self.segments, 'line')}: {', '.join(told(self, DRAWING_KINDS)) or 'nothing found'}"
+
+    def table(self) -> dict[str, Any]:
+        """Plain values, as JSON has them."""
+        counts = {words.count: getattr(self, words.count) for words in DRAWING_KINDS.values()}
+        findings = [finding.table(DRAWING_KINDS) for finding in self.findings]
+        return {"segments": self.segments, **counts, "tolerance": self.tolerance, "findings": findings}
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -170,7 +186,7 @@ def _lines(segments: ArrayLike, tolerance: float) -> Floats:
 
 def _net(segments: ArrayLike, tolerance: float) -> _Net:
     flat = _lines(segments, tolerance).reshape(-1, 2)
-    where = places_of(flat)
+    where = distinct_places(flat)
     _, first = np.unique(where, return_index=True)
     ends = where.reshape(-1, 2)
     different = np.sort(ends[ends[:, 0] != ends[:, 1]], axis=1)

@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from .report import arrays_of
 from .sides import Floats, Numbers, Sides, pieces, shells, sides_of, twins
-from .welding import many, proper
+from .welding import proper
+from .words import many
 
 FLAT = 1e-6
 """A border is flat where no vertex is farther from its plane than this share of its size."""

@@ -89,8 +89,9 @@ def _lines_near(
 ) -> tuple[Numbers, Numbers]:
     """The pairs of edges whose lines come near each other, and those with a common vertex: few of very many."""
     # One coordinate after the other: arrays (k, 3) would take several times as long.
-    along, across, apart = ([(q[j, axis] - p[i, axis]) for axis in range(3)] for p, i, q, j in (
-        (a, one, b, one), (a, two, b, two), (a, one, a, two)))  # fmt: skip
+    along = [b[one, axis] - a[one, axis] for axis in range(3)]
+    across = [b[two, axis] - a[two, axis] for axis in range(3)]
+    apart = [a[two, axis] - a[one, axis] for axis in range(3)]
     x, y, z = (along[k - 2] * across[k - 1] - along[k - 1] * across[k - 2] for k in range(3))
     away = apart[0] * x + apart[1] * y + apart[2] * z
     kept = away * away <= (1.0 + 1e-9) * tolerance**2 * (x * x + y * y + z * z)

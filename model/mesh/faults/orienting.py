@@ -7,7 +7,8 @@ from numpy.typing import ArrayLike
 
 from .report import arrays_of
 from .sides import Flags, Floats, Numbers, pieces, shells, sides_of, signed_volume
-from .welding import many, proper
+from .welding import proper
+from .words import many
 
 BLOCK = 1 << 20
 """Triangles whose solid angles are summed at once."""

@@ -15,6 +15,7 @@ from .report import FAULTS, MeshFaults, Progress, arrays_of, find_faults
 from .sides import Floats, Numbers
 from .thinning import drop_slivers
 from .welding import split_edges, weld
+from .words import MESH_KINDS
 
 REPAIRS = {
     "weld": "Vertices within the tolerance become one, and open edges are joined to vertices beside them",
@@ -25,19 +26,7 @@ REPAIRS = {
 }
 """What can be asked for, in the order in which it is done, in words for the user."""
 
-NAMES = {
-    "open_edges": "open edges",
-    "borders": "borders",
-    "overused_edges": "edges of more than two faces",
-    "turned_edges": "edges whose faces disagree about the outside",
-    "crossings": "pairs of faces that run into each other",
-    "duplicates": "duplicate faces",
-    "degenerate": "faces without area",
-    "near_vertex_edge": "vertices near an edge",
-    "near_edge_edge": "edges near each other",
-    "near_vertices": "vertices near each other",
-    "slivers": "slivers",
-}
+NAMES = {"open_edges": "open edges"} | {words.count: words.several for words in MESH_KINDS.values()}
 """The counts of a MeshFaults that should be 0, in words."""
 
 SAME_VOLUME = 1e-9
@@ -61,20 +50,39 @@ def repaired(
     vertices: ArrayLike,
     triangles: ArrayLike,
     tolerance: float = 1e-3,
-    repairs: Collection[str] = tuple(REPAIRS),
+    repairs: Collection[str] | str = tuple(REPAIRS),
     longest: float | None = None,
     progress: Progress | None = None,
 ) -> Repaired:
-    """Those of REPAIRS that are asked for, on triangles (m, 3) over vertices (n, 3), with a tolerance in mm.
-
-    `longest` is the longest border in mm that is filled. Raises Refusal as `find_faults` does, and for repairs that
-    there are not.
-    """
-    unknown = [name for name in repairs if name not in REPAIRS]
-    if unknown:
-        raise Refusal(f"{unknown[0]!r:.40} is no repair; there are {', '.join(REPAIRS)}")
+    """Triangles (m, 3) over vertices (n, 3) after `mended`, with reports before and after. Raises as that does."""
     points, faces = arrays_of(vertices, triangles, tolerance)
     before = find_faults(points, faces, tolerance, _part(progress, 0.0, 0.45))
+    points, faces, words = mended(points, faces, tolerance, repairs, longest, _part(progress, 0.45, 0.55))
+    after = find_faults(points, faces, tolerance, _part(progress, 0.55, 1.0))
+    return Repaired(points, faces, words, before, after, worsened(before, after))
+
+
+def mended(
+    vertices: ArrayLike,
+    triangles: ArrayLike,
+    tolerance: float = 1e-3,
+    repairs: Collection[str] | str = tuple(REPAIRS),
+    longest: float | None = None,
+    progress: Progress | None = None,
+) -> tuple[Floats, Numbers, tuple[str, ...]]:
+    """Those of REPAIRS that are asked for, in their order, on triangles (m, 3) over vertices (n, 3), within a tolerance
+    in mm; `longest` is the longest border in mm that is filled.
+
+    Returns vertices, triangles and words about each change. Raises Refusal as `find_faults` does, for repairs that
+    there are not, and for a longest border that is no length.
+    """
+    wanted = [repairs] if isinstance(repairs, str) else list(repairs)
+    unknown = [name for name in wanted if name not in REPAIRS]
+    if unknown:
+        raise Refusal(f"{unknown[0]!r:.40} is no repair; there are {', '.join(REPAIRS)}")
+    if longest is not None and not longest >= 0.0:
+        raise Refusal(f"the longest border to be filled must be a length in mm, not {longest!r:.40}")
+    points, faces = arrays_of(vertices, triangles, tolerance)
     words: list[str] = []
 
     def take(result: tuple[Floats, Numbers, str]) -> None:
@@ -83,10 +91,10 @@ def repaired(
         if said:
             words.append(said)
 
-    steps = [name for name in REPAIRS if name in repairs]
+    steps = [name for name in REPAIRS if name in wanted]
     for place, name in enumerate(steps):
         if progress:
-            progress(REPAIRS[name], 0.45 + 0.1 * place / len(steps))
+            progress(REPAIRS[name], place / len(steps))
         if name == "weld":
             take(weld(points, faces, 0.0))
             take(split_edges(points, faces, tolerance))
@@ -101,8 +109,7 @@ def repaired(
             take(close_holes(points, faces, longest))
             if "orient" in steps:  # what is closed only now has an outside only now
                 take(orient(points, faces))
-    after = find_faults(points, faces, tolerance, _part(progress, 0.55, 1.0))
-    return Repaired(points, faces, tuple(words), before, after, worsened(before, after))
+    return points, faces, tuple(words)
 
 
 def worsened(before: MeshFaults, after: MeshFaults) -> tuple[str, ...]:

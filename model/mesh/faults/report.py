@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,13 +13,15 @@ from ...document.errors import Refusal
 from .crossings import crossings
 from .nearness import near_edges, near_vertices
 from .sides import Floats, Numbers, Sides, heights_of, normals_of, pieces, shells, sides_of, signed_volume
+from .words import MESH_KINDS, KindWords, many
 
 Progress = Callable[[str, float], None]
 """Told what is being done and which share of all is done, 0 to 1; may raise to stop."""
 
-KINDS = ("border", "overused edge", "turned edge", "crossing", "duplicate", "degenerate", "near vertex-edge",
-         "near edge-edge", "near vertices", "sliver")  # fmt: skip
-"""The kinds of findings, worst first."""
+COUNTS = ("vertices", "triangles", "components", "open_edges", "borders", "overused_edges", "turned_edges", "crossings",
+          "duplicates", "degenerate", "near_vertex_edge", "near_edge_edge", "near_vertices", "slivers")  # fmt: skip
+FAULTS = COUNTS[3:]
+"""The counts of a MeshFaults that should be 0."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -31,6 +34,13 @@ class Finding:
     size: float
     gap: float
     vertices: Numbers
+
+    def table(self, words: Mapping[str, KindWords]) -> dict[str, Any]:
+        """Plain values, as JSON has them."""
+        return {
+            "kind": self.kind, "words": words[self.kind].one, "place": self.place.tolist(), "size": self.size,
+            "gap": self.gap, "vertices": self.vertices.tolist(),
+        }  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -67,12 +77,35 @@ class MeshFaults:
     @property
     def sound(self) -> bool:
         """Whether nothing was found."""
-        return self.closed and not self.findings
+        return self.closed and not self.inside_out and not any(getattr(self, name) for name in FAULTS)
+
+    @property
+    def inside_out(self) -> bool:
+        """Whether a closed surface faces inwards, all in all."""
+        return self.volume is not None and self.volume < 0.0
+
+    def __str__(self) -> str:
+        """One line for the user."""
+        head = ", ".join((many(self.triangles, "triangle"), many(self.vertices, "vertex", "vertices"),
+                          many(self.components, "piece")))  # fmt: skip
+        found = told(self, MESH_KINDS)
+        if self.open_edges:
+            found[0] += f" ({many(self.open_edges, 'open edge')})"
+        if self.inside_out:
+            found.append("inside out")
+        return f"{head}: {', '.join(found) or 'nothing found'}"
+
+    def table(self) -> dict[str, Any]:
+        """Plain values, as JSON has them."""
+        counts = {name: getattr(self, name) for name in COUNTS}
+        findings = [finding.table(MESH_KINDS) for finding in self.findings]
+        return {**counts, "closed": self.closed, "volume": self.volume, "area": self.area,
+                "tolerance": self.tolerance, "findings": findings}  # fmt: skip
 
 
-FAULTS = ("open_edges", "borders", "overused_edges", "turned_edges", "crossings", "duplicates", "degenerate",
-          "near_vertex_edge", "near_edge_edge", "near_vertices", "slivers")  # fmt: skip
-"""The counts of a MeshFaults that should be 0."""
+def told(faults: object, kinds: Mapping[str, KindWords]) -> list[str]:
+    """How many there are of each kind in a report, those of which there are some."""
+    return [words.counted(getattr(faults, words.count)) for words in kinds.values() if getattr(faults, words.count)]
 
 
 def find_faults(

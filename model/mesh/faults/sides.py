@@ -101,6 +101,15 @@ def pieces(one: Numbers, two: Numbers, count: int) -> Numbers:
     return rank[which]
 
 
+def distinct_places(vertices: Floats) -> Numbers:
+    """(n,) a number for each vertex, the same for those at exactly one place."""
+    order = np.lexsort(vertices.T)
+    fresh = np.concatenate(([0], (np.diff(vertices[order], axis=0) != 0.0).any(axis=1))) if len(vertices) else order
+    found = np.empty(len(vertices), np.int64)
+    found[order] = np.cumsum(fresh)
+    return found
+
+
 def shells(sides: Sides) -> Numbers:
     """(m,) which triangles hang together by edges, numbered by their first triangle."""
     one, two = neighbours(sides)

@@ -9,7 +9,8 @@ from numpy.typing import ArrayLike
 
 from .report import arrays_of
 from .sides import Flags, Floats, Numbers, Sides, heights_of, normals_of, sides_of, twins
-from .welding import many, proper, without_unused
+from .welding import proper, without_unused
+from .words import many
 
 ROUNDS = 200
 """Each takes all slivers that do not touch one another; what is left after these is left."""

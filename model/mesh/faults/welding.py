@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
-from .crossings import places_of
 from .nearness import close_pairs, near_edges
 from .report import arrays_of
-from .sides import Floats, Numbers, sides_of
+from .sides import Floats, Numbers, distinct_places, sides_of
+from .words import many
 
 ROUNDS = 20
 """How often edges are cut again, since a cut edge may run past another vertex."""
@@ -82,7 +82,7 @@ def _cut_once(points: Floats, faces: Numbers, tolerance: float) -> Numbers:
 
 def joined(points: Floats, tolerance: float) -> Numbers:
     """(n,) which point each becomes: one within the tolerance that becomes itself."""
-    place = places_of(points)
+    place = distinct_places(points)
     _, first = np.unique(place, return_index=True)
     target = first[place]
     if tolerance <= 0.0:
@@ -120,7 +120,3 @@ def without_unused(vertices: Floats, triangles: Numbers) -> tuple[Floats, Number
     used = np.zeros(len(vertices), bool)
     used[triangles] = True
     return vertices[used], (np.cumsum(used) - 1)[triangles]
-
-
-def many(count: int, word: str, plural: str = "") -> str:
-    return f"{count:,} {word if count == 1 else plural or word + 's'}"

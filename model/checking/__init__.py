@@ -1,0 +1,1 @@
+"""What is wrong with the things of a document. Imports from ..document, ..solid, ..mesh and ..operations."""
