@@ -113,8 +113,8 @@ class Scene:
 
     @property
     def painting(self) -> bool:
-        """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown, none of it
-        faded."""
+        """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown, none of
+        it faded."""
         if self.hidden_surface != "bsp" or self._tree is None or self.faded & self._solids.keys():
             return False
         shown = {key: mesh for key, mesh in self.solid_meshes.items() if len(mesh.triangles)}

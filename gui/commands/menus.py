@@ -37,7 +37,8 @@ ORDER = {
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces bitmap_inspector - tool_menu",
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces bitmap_inspector - "
+    "faults repair_faults - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
     "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel panels",

@@ -47,8 +47,4 @@ def counts_by_kind(reports: Sequence[NodeFaults]) -> dict[Kind, tuple[KindWords,
 
 def worth_telling(reports: Sequence[NodeFaults]) -> list[NodeFaults]:
     """Those with faults that whoever brings in a file has to know of."""
-    return [
-        report
-        for report in reports
-        if any(kind not in HARMLESS for _, kind in counts_by_kind([report]))
-    ]
+    return [report for report in reports if any(kind not in HARMLESS for _, kind in counts_by_kind([report]))]

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from ..window import MainWindow
 
 REST = 400  # milliseconds without a change before a check is made again by itself
-FINEST, COARSEST = 1e-9, 1000.0  # mm
+FINEST, COARSEST = 1e-9, 1e6  # mm
 TOLERANCE = 0.001  # mm, where the user has chosen no other
 MESHES = (ImportedMesh, Polyhedron)
 
@@ -184,14 +184,14 @@ class Checks(QObject):
 
 def _arrival_words(name: str, told: Sequence[NodeFaults]) -> str:
     if len(told) == 1:
-        return f"{name}: {told[0].faults}"
+        return f"{name} has faults: {str(told[0].faults).partition(': ')[2]}"
     return f"{name}: {len(told):,} of its parts have faults"
 
 
-def tolerance_from(text: str) -> float:
-    """The millimetres that were typed. Raises Refusal."""
-    typed = number(text, "the tolerance")
+def millimetres_from(text: str, what: str) -> float:
+    """The length that was typed. Raises Refusal, with `what` it is."""
+    typed = number(text, what)
     value = typed.evaluate({}) if isinstance(typed, Expression) else float(typed)
     if not FINEST <= value <= COARSEST:
-        raise Refusal(f"the tolerance lies between {FINEST:g} and {COARSEST:g} mm, not at {value:g}")
+        raise Refusal(f"{what} lies between {FINEST:g} and {COARSEST:,.0f} mm, not at {value:g}")
     return value

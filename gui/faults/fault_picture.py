@@ -1,4 +1,4 @@
-"""The faults in the picture: spots, the chosen one with its edges and faces, other solids faded, and the flight there."""
+"""Faults in the picture: spots, the chosen one with its edges and faces, other solids faded, and the flight there."""
 
 from __future__ import annotations
 
@@ -22,16 +22,19 @@ if TYPE_CHECKING:
     from ..window import MainWindow
     from .finding_rows import FindingRow
 
-AROUND = 0.05  # of the picture's solids: what is seen on either side of a fault that is chosen
-CLOSE = 1.5  # times its size: what is seen on either side of one that is zoomed to
-CLOSEST = 1e-5  # of the picture's solids
+AROUND, CLOSE = 0.75, 0.55  # times the size of a fault: what is seen on either side of it, chosen and zoomed to
+FAR, NEAR = 0.06, 1e-5  # of the picture's solids: the least that is seen then
+GAPS = 4.0  # times the gap between things, likewise
 Arrays = tuple["NDArray[np.float64]", "NDArray[np.integer]"]
 
 
 class FaultPicture(Tool):
-    """`left` tells that Escape was pressed in the picture while faults were shown there."""
+    """`left` tells that Escape was pressed in the picture while a fault was shown there; `began` and `ended` that one is
+    shown, and that none is any more."""
 
     left = Signal()
+    began = Signal()
+    ended = Signal()
 
     def __init__(self, window: MainWindow, parent: QObject) -> None:
         super().__init__(parent)
@@ -44,10 +47,6 @@ class FaultPicture(Tool):
         self.chosen: FindingRow | None = None
         window.viewport.add_tool(self)
 
-    @property
-    def active(self) -> bool:
-        return bool(len(self._rows)) or self.chosen is not None
-
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.fault_marks import FaultMarks
 
@@ -59,15 +58,17 @@ class FaultPicture(Tool):
         self._viewer = self._marks = None
 
     def key(self, event: QKeyEvent) -> bool:
-        if not self.active or event.key() != Qt.Key.Key_Escape:
+        if self.chosen is None or event.key() != Qt.Key.Key_Escape:
             return False
         self.left.emit()
         return True
 
     def show(self, rows: Sequence[FindingRow], chosen: FindingRow | None = None) -> None:
         """Spots for all rows, and the chosen one as it is."""
-        self._rows, self.chosen = rows, chosen
+        before, self.chosen, self._rows = self.chosen, chosen, rows
         self._draw()
+        if (before is None) != (chosen is None):
+            (self.ended if chosen is None else self.began).emit()
 
     def fly(self, close: bool = False) -> None:
         """Bring the chosen one into the middle of the picture; `close`: as near as it is large."""
@@ -78,8 +79,8 @@ class FaultPicture(Tool):
             return
         bounds = viewer.scene.visible_bounds()
         scene = 100.0 if bounds is None else float(np.linalg.norm(np.ptp(bounds, axis=0)))
-        least = CLOSEST if close else AROUND
-        half = max(CLOSE * row.finding.size, 2.0 * CLOSE * row.finding.gap, least * scene)
+        share, least = (CLOSE, NEAR) if close else (AROUND, FAR)
+        half = max(share * row.finding.size, GAPS * row.finding.gap, least * scene)
         box = np.array([row.place - half, row.place + half])
         self._viewport.move_to(fit(viewer.camera, box, viewer.size[0] / viewer.size[1], 1.0))
 

@@ -61,16 +61,26 @@ class FindingRow:
     def words(self) -> str:
         """What it is and how large, for the picture."""
         size, gap = self.finding.size, self.finding.gap
-        told = f"{figure(gap, 3)} mm apart" if self.finding.kind.startswith("near") else f"{figure(size, 4)} mm"
+        told = f"{length(gap)} apart" if self.finding.kind.startswith("near") else length(size)
         return f"{self.title}, {told}".replace("\u202f", " ") if size or gap else self.title
+
+    def like(self, other: FindingRow) -> bool:
+        """Whether it is the same finding in a later report."""
+        same = self.report.id == other.report.id and self.kind == other.kind
+        return same and bool(np.allclose(self.place, other.place))
 
     def texts(self) -> tuple[str, ...]:
         """What stands in its columns."""
         finding = self.finding
-        gap = f"{figure(finding.gap, 4)} mm" if finding.gap else ""
+        gap = length(finding.gap) if finding.gap else ""
         place = ", ".join(figure(value, 6).replace("-", "\u2212") for value in self.place.tolist())
-        size = f"{figure(finding.size, 5)} mm" if finding.size else ""
+        size = length(finding.size) if finding.size else ""
         return self.report.name, self.title, size, gap, place
+
+
+def length(value: float) -> str:
+    """With its unit; of what is tiny two digits."""
+    return f"{figure(value, 5) if value >= 0.1 else f'{value:.2g}'} mm"
 
 
 def rows_of(reports: Sequence[NodeFaults]) -> list[FindingRow]:

@@ -9,9 +9,9 @@ from PySide6.QtCore import QEvent, QModelIndex, QPoint, Qt, Signal
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QKeySequence
 from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QMenu, QTableView, QWidget
 
-from .finding_rows import KIND, PLACE, TITLES, FindingModel, FindingRow
+from .finding_rows import GAP, KIND, PLACE, SIZE, SOLID, TITLES, FindingModel, FindingRow
 
-WIDTHS = (120, 210, 100, 90, 170)
+WIDTHS = {SOLID: 100, SIZE: 92, GAP: 84, PLACE: 150}
 
 
 class FindingTable(QTableView):
@@ -39,8 +39,9 @@ class FindingTable(QTableView):
         header = self.horizontalHeader()
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         header.setHighlightSections(False)
-        header.setSectionResizeMode(PLACE, QHeaderView.ResizeMode.Stretch)
-        for column, width in enumerate(WIDTHS):
+        header.setSectionResizeMode(KIND, QHeaderView.ResizeMode.Stretch)
+        header.setMinimumSectionSize(60)
+        for column, width in WIDTHS.items():
             self.setColumnWidth(column, width)
         self.setSortingEnabled(True)
         self.sortByColumn(KIND, Qt.SortOrder.AscendingOrder)
@@ -56,6 +57,19 @@ class FindingTable(QTableView):
     def row_at(self, index: QModelIndex) -> FindingRow | None:
         rows = self.findings.rows
         return rows[index.row()] if index.isValid() and index.row() < len(rows) else None
+
+    def choose_like(self, row: FindingRow | None) -> None:
+        """Choose the finding of the same kind at the same place in the same node, without saying so; none if there is
+        none."""
+        places = self.findings.rows
+        found = next((place for place, one in enumerate(places) if row is not None and one.like(row)), -1)
+        self.selectionModel().blockSignals(True)
+        if found < 0:
+            self.setCurrentIndex(QModelIndex())
+        else:
+            self.selectRow(found)
+        self.selectionModel().blockSignals(False)
+        self.viewport().update()
 
     def leave(self) -> None:
         """Choose none."""

@@ -20,25 +20,27 @@ from PySide6.QtWidgets import (
     QWidgetAction,
 )
 
+from ...model.document.errors import Refusal
+from ...model.mesh.faults.repair import REPAIRS
 from ..icons import icon
 from ..panels.number_field import NumberField, Steps
+from ..panels.property_edit import sentence
 from .checked import Kind, counts_by_kind
-from .finding_rows import rows_of
+from .checks import millimetres_from
+from .finding_rows import SOLID, rows_of
 from .finding_table import FindingTable
 from .report_view import ReportView
 
 if TYPE_CHECKING:
     from ...model.checking.document_faults import NodeFaults
 
-REPAIRS = (
-    ("weld", "Weld", "Vertices within the tolerance become one, and open edges are joined to vertices beside them"),
-    ("duplicates", "Drop duplicates", "Of faces with the same corners one is kept"),
-    ("slivers", "Drop slivers", "Faces thinner than the tolerance are taken out"),
-    ("orient", "Turn faces", "Faces are turned to agree with their neighbours, and outwards"),
-    ("holes", "Close holes", "Borders are filled with new faces"),
-)
-ALL = tuple(name for name, _, _ in REPAIRS)
+TITLES = {
+    "weld": "Weld", "duplicates": "Drop duplicates", "slivers": "Drop slivers", "orient": "Turn faces",
+    "holes": "Close holes",
+}  # fmt: skip
+ALL = tuple(REPAIRS)
 TOLERANCE_TIP = "How near things may be without being joined, and how high a face must be to be no sliver, in mm"
+LONGEST_TIP = "The longest border that is closed, in mm; empty: any"
 EMPTY = (
     "Nothing has been checked yet. A check finds open borders, faces that run into each other, turned, doubled and "
     "thin faces of meshes, and ends of drawings that nearly meet; each can be zoomed to and repaired."
@@ -59,7 +61,7 @@ class FaultsPage(QWidget):
         super().__init__(parent)
         self.check = self._button("evaluate", "Check", "Look for faults in what is selected, or in all that is visible")
         self.check.clicked.connect(self.check_asked)
-        self.tolerance = NumberField(Steps(0.001, 0.0001, 0.01, minimum=0.0), self)
+        self.tolerance = NumberField(Steps(0.001, 0.0001, 0.01, minimum=0.0, above=True), self)
         self.tolerance.setFixedWidth(64)
         self.tolerance.setAccessibleName("Tolerance in mm")
         self.tolerance.setToolTip(TOLERANCE_TIP)
@@ -77,7 +79,10 @@ class FaultsPage(QWidget):
         self.copy = self._button("copy", "", "Copy the listed findings as text or CSV")
         self.copy.setAccessibleName("Copy the findings")
         self.copy.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        self.longest = NumberField(Steps(1.0, 0.1, 10.0, minimum=0.0), self)
+        self.longest = NumberField(Steps(1.0, 0.1, 10.0, minimum=0.0, above=True), self)
+        self.longest.typed.connect(self._type_longest)
+        self.longest.stepping.connect(self._set_longest)
+        self._longest: float | None = None
         self.repair.setMenu(self._repair_menu())
         bar = QWidget(self)
         bar.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # the panel may be narrow
@@ -123,9 +128,9 @@ class FaultsPage(QWidget):
         self.parts.setChildrenCollapsible(False)
         self.parts.addWidget(self.report)
         self.parts.addWidget(self.table)
-        self.parts.setStretchFactor(0, 2)
-        self.parts.setStretchFactor(1, 3)
-        self.parts.setSizes([300, 450])
+        self.parts.setStretchFactor(0, 1)
+        self.parts.setStretchFactor(1, 2)
+        self.parts.setSizes([260, 500])
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
@@ -142,6 +147,11 @@ class FaultsPage(QWidget):
     def listed_kind(self) -> Kind | None:
         """The kind that is listed alone; None for all."""
         return self._kinds[max(self.kind.currentIndex(), 0)]
+
+    @property
+    def longest_border(self) -> float | None:
+        """The longest border that is to be closed, in mm; None: any."""
+        return self._longest
 
     def show_findings(self, reports: Sequence[NodeFaults], nothing: bool = False) -> None:
         """The table and its filter; the report in words is set by itself. `nothing` there is to check."""
@@ -165,6 +175,7 @@ class FaultsPage(QWidget):
         self.kind.blockSignals(False)
         self.table.findings.set_kind(self.listed_kind)
         self.table.findings.set_rows(rows)
+        self.table.setColumnHidden(SOLID, len({id(row.report) for row in rows}) < 2)
         self.table.setVisible(bool(rows))
         self.kind.setVisible(bool(rows))
         self.copy.setEnabled(bool(rows))
@@ -187,14 +198,28 @@ class FaultsPage(QWidget):
         """The menu of repairs, at the button."""
         self.repair.showMenu()
 
+    def _type_longest(self, text: str) -> None:
+        try:
+            self._set_longest(millimetres_from(text, "the longest border") if text else None)
+        except Refusal as refusal:
+            self.longest.set_fault(True)
+            self.longest.setToolTip(sentence(refusal))
+
+    def _set_longest(self, value: float | None) -> None:
+        self._longest = value
+        self.longest.set_fault(False)
+        self.longest.setToolTip(LONGEST_TIP)
+        self.longest.setModified(False)
+        self.longest.set_value(value)
+
     def _repair_menu(self) -> QMenu:
         menu = QMenu(self)
         menu.setToolTipsVisible(True)
         self._whose = menu.addAction("Repair", lambda: self.repair_asked.emit(ALL))
         self._whose.setToolTip("All of these, one after the other")
         menu.addSeparator()
-        for name, title, tip in REPAIRS:
-            menu.addAction(title, lambda name=name: self.repair_asked.emit((name,))).setToolTip(tip)
+        for name, tip in REPAIRS.items():
+            menu.addAction(TITLES[name], lambda name=name: self.repair_asked.emit((name,))).setToolTip(tip)
         menu.addSeparator()
         room = QWidget(menu)
         line = QHBoxLayout(room)
@@ -204,7 +229,7 @@ class FaultsPage(QWidget):
         self.longest.setFixedWidth(64)
         self.longest.setPlaceholderText("any")
         self.longest.setAccessibleName("Longest border that is closed, in mm")
-        self.longest.setToolTip("The longest border that is closed, in mm; empty: any")
+        self.longest.setToolTip(LONGEST_TIP)
         line.addWidget(self.longest)
         line.addWidget(QLabel("mm", room))
         entry = QWidgetAction(menu)

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 from ...model.document.errors import Refusal
 from ..panels.property_edit import sentence
 from .checked import is_mesh, is_sound
-from .checks import Checks, tolerance_from
+from .checks import Checks, millimetres_from
 from .repairing import Asked, Mended, Repairing
 
 if TYPE_CHECKING:
@@ -29,6 +29,8 @@ class FaultsPanel(QWidget):
     refused = Signal(str)
     said = Signal(str)
     dirty = Signal(str)
+    listed = Signal()
+    """What can be repaired may have changed."""
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
@@ -43,6 +45,7 @@ class FaultsPanel(QWidget):
         self._after_repair: Document | None = None
         """The document that the last repair made, for as long as it is the present one."""
         self.checks.dirty.connect(self.dirty)
+        self.checks.changed.connect(self.listed)
         self.checks.refused.connect(self.refused)
         self.repairing.refused.connect(self.refused)
         self.repairing.done.connect(self._repaired)
@@ -102,6 +105,8 @@ class FaultsPanel(QWidget):
         page.table.repair_asked.connect(lambda row: page.open_repairs())
         page.table.left.connect(self._leave)
         self.picture.left.connect(self._leave)
+        self.picture.began.connect(lambda: self._window.handles.set_hidden(True))
+        self.picture.ended.connect(lambda: self._window.handles.set_hidden(False))
         self.checks.changed.connect(self._fill)
         self.checks.working.connect(page.show_work)
         self.repairing.working.connect(page.show_work)
@@ -144,7 +149,7 @@ class FaultsPanel(QWidget):
 
     def _zoom(self, row: FindingRow | None) -> None:
         if self.picture is not None and row is not None:
-            self.picture.show(self.picture.rows, row)
+            self._choose(row, fly=False)
             self.picture.fly(close=True)
 
     def _leave(self) -> None:
@@ -158,7 +163,7 @@ class FaultsPanel(QWidget):
         if page is None:
             return
         try:
-            value = tolerance_from(text)
+            value = millimetres_from(text, "the tolerance")
         except Refusal as refusal:
             page.tolerance.set_fault(True)
             self.refused.emit(sentence(refusal))
@@ -189,6 +194,17 @@ class FaultsPanel(QWidget):
         reports = self.checks.reports if row is None else (row.report,)
         return [report for report in reports if report.faults is not None and is_mesh(report) and not is_sound(report)]
 
+    @property
+    def repairable(self) -> bool:
+        """Whether there is something listed that can be repaired."""
+        return self.in_front and not self.repairing.at_work and bool(self._mendable(None))
+
+    def repair_all(self) -> None:
+        """Do all repairs to all that is listed."""
+        from .page import ALL
+
+        self._repair([Asked(report.id, report.name) for report in self._mendable(None)], ALL)
+
     def repair(self, repairs: tuple[str, ...]) -> None:
         """Repair what has the chosen finding, or all; see model/mesh/faults/repair.py for the names."""
         if self.page is None:
@@ -197,11 +213,9 @@ class FaultsPanel(QWidget):
         self._repair(asked, repairs)
 
     def _repair(self, asked: list[Asked], repairs: tuple[str, ...]) -> None:
-        from ...model.operations.fitting import number_from
-
-        assert self.page is not None
-        self.checks.cancel()
-        self.repairing.start(asked, repairs, self.checks.tolerance, None)
+        if self.page is not None:
+            self.checks.cancel()
+            self.repairing.start(asked, repairs, self.checks.tolerance, self.page.longest_border)
 
     def _repaired(self, mended: tuple[Mended, ...]) -> None:
         self.mended = mended

@@ -155,8 +155,8 @@ def _repair(
 
 def counts_of(result: Repaired) -> tuple[tuple[str, str, str, bool], ...]:
     """The counts of faults that there were before or are now, and the volume: (label, before, now, whether worse)."""
-    from ...model.mesh.faults.report import FAULTS
     from ...model.mesh.faults.repair import NAMES
+    from ...model.mesh.faults.report import FAULTS
 
     before, after = result.before, result.after
     found = []
@@ -164,5 +164,5 @@ def counts_of(result: Repaired) -> tuple[tuple[str, str, str, bool], ...]:
         one, two = int(getattr(before, name)), int(getattr(after, name))
         if one or two:
             found.append((sentence(NAMES[name]), f"{one:,}", f"{two:,}", two > one))
-    volumes = [f"{figure(faults.volume)} mm³" if faults.volume is not None else "not closed" for faults in (before, after)]
-    return (*found, ("Volume", *volumes, after.volume is None and before.volume is not None))
+    one, two = (None if faults.volume is None else f"{figure(faults.volume)} mm³" for faults in (before, after))
+    return (*found, ("Volume", one or "not closed", two or "not closed", bool(one and not two)))

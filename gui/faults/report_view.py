@@ -81,8 +81,8 @@ def summary(reports: Sequence[NodeFaults], tolerance: float) -> str:
     sound = len(reports) - len(dirty)
     lines = []
     for report in dirty[:MOST]:
-        ink = colours_now().text
-        name = f'<a href="solid {escape(report.id)}" style="color:{ink}; text-decoration:none"><b>{escape(report.name)}</b></a>'
+        style = f"color:{colours_now().text}; text-decoration:none"
+        name = f'<a href="solid {escape(report.id)}" style="{style}"><b>{escape(report.name)}</b></a>'
         lines.append(f"<p>{name}: {escape(str(report))}{_convert(report)}</p>")
     if len(dirty) > MOST:
         lines.append(f"<p>{len(dirty) - MOST:,} more have faults.</p>")
@@ -125,7 +125,7 @@ def mended_words(mended: Mended) -> str:
             f'<tr><td>{escape(label)}</td><td align="right" style="padding-left:14px">{escape(before)}</td>'
             f'<td align="right" style="padding-left:14px; color:{ink}">{escape(after)}</td></tr>'
         )
-    return f'{text}<table cellspacing="0" cellpadding="1">{head}{rows}</table>'
+    return f'{text}<table cellspacing="0" cellpadding="1" width="100%">{head}{rows}</table>'
 
 
 def _undo(can_undo: bool) -> str:

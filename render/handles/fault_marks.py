@@ -1,4 +1,4 @@
-"""Faults of meshes and drawings over the picture: a spot for each, and the chosen one with a ring, a leader and words."""
+"""Faults of meshes and drawings over the picture: a spot for each; the chosen one has a ring, a leader and words."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 INKS = ("#cc1464", "#ff6ba6")
 """On light ground and on dark: unlike what is selected, pointed at or an axis."""
 SPOT, LINE, RING, LEADER = 5.0, 3.0, 2.2, 1.6  # logical pixels: breadths
-ROOM, LARGEST = 9.0, 60.0  # pixels from what is ringed to the ring; the largest ring
+ROOM, LARGEST = 9.0, 16.0  # pixels from what is ringed to the ring; half of the largest thing that is
 AWAY = (34.0, 30.0)  # pixels from the ring to the words, across and up
 FILL = 0.35  # opacity of faces
 
@@ -128,7 +128,7 @@ class FaultMarks:
         if not radius:
             pen.dot(on_target_plane(camera, *middle, size), 1.5 * RING, ink, ground)
         pen.fill(self._drawn)
-        self._labels.show([(end + (0.0, up * 8.0), chosen.words, ink_of(self._look))], ground, size, scale)
+        self._labels.show([(end + np.array([0.0, up * 8.0]), chosen.words, ink_of(self._look))], ground, size, scale)
 
     @property
     def _ink(self) -> Colour:
