@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QDockWidget, QMainWindow, QTabWidget, QWidget
 
 LEFT, RIGHT, BOTTOM = 250, 290, 150  # pixels
+FAULTS_HEIGHT = 230  # pixels that the list of faults has at least when it comes to the front
 
 
 def arrange(
@@ -57,6 +58,16 @@ def give_sizes(window: QMainWindow) -> None:
     ):
         beside = [dock for dock in window.findChildren(QDockWidget) if window.dockWidgetArea(dock) == area]
         window.resizeDocks(beside[:1], [size], direction)
+
+
+def raise_dock(window: QMainWindow, title: str, height: int) -> None:
+    """Bring a dock to the front, at least so many pixels high; the focus stays where it is."""
+    dock = window.findChild(QDockWidget, f"dock_{title.lower()}")
+    if isinstance(dock, QDockWidget):
+        dock.show()
+        dock.raise_()
+        if dock.height() < height:
+            window.resizeDocks([dock], [height], Qt.Orientation.Vertical)
 
 
 def _dock(window: QMainWindow, title: str, widget: QWidget, area: Qt.DockWidgetArea, tabbed: bool) -> QDockWidget:

@@ -31,6 +31,8 @@ class Files(QObject):
     path_changed = Signal()
     opened = Signal()
     notice = Signal(str)
+    brought_in = Signal(tuple, str)
+    """Ids of the solids and outlines that came with a foreign file, and the file's name."""
 
     def __init__(
         self,
@@ -91,6 +93,8 @@ class Files(QObject):
             self._show(document, path if path.suffix.lower() == PROJECT and not example else None)
             if not example:
                 self._remember(path)
+            if path.suffix.lower() != PROJECT:
+                self.brought_in.emit(tuple(root.id for root in document.standing), path.name)
 
         def done(document: Document) -> None:
             if self._session.state.document is before:
@@ -159,13 +163,18 @@ class Files(QObject):
             return read_any(path)
 
         def done(other: Document) -> None:
+            before = self._session.document
             try:
-                document = OPERATIONS["insert_document"](self._session.document, other)
+                document = OPERATIONS["insert_document"](before, other)
             except Refusal as refusal:
                 self._refused("imported", path, refusal)
                 return
             self._session.commit(f"Import {path.name}", document, line=f"insert_document(open_document({str(path)!r}))")
             self._remember(path)
+            if path.suffix.lower() != PROJECT:
+                known = {root.id for root in before.standing}
+                fresh = (root.id for root in document.standing if root.id not in known)
+                self.brought_in.emit(tuple(fresh), path.name)
             notes = other.notes.splitlines() if path.suffix.lower() != PROJECT else []
             if notes:
                 dialogs.tell(self._window, f"{path.name} is imported, but not all of it", "\n".join(notes))

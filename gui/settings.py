@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QByteArray, QSettings
 
 RECENT = 10
-LAYOUT_VERSION = 5
+LAYOUT_VERSION = 6
 TOLERANCE = 0.05  # mm, where the user has chosen no other
 
 
@@ -90,14 +90,15 @@ class Settings:
         self._store.setValue("window/geometry", geometry)
         self._store.setValue("window/state", state)
 
-    def tolerance(self, purpose: str) -> float:
-        """Millimetres between curved things and their facets; `purpose` is "display" or "export"."""
-        value = self._store.value(f"tolerance/{purpose}", TOLERANCE)
+    def tolerance(self, purpose: str, default: float = TOLERANCE) -> float:
+        """Millimetres between curved things and their facets; `purpose` is "display" or "export". Of "faults" those
+        within which things should be joined."""
+        value = self._store.value(f"tolerance/{purpose}", default)
         try:
             found = float(value)  # type: ignore[arg-type]
         except (TypeError, ValueError):
-            return TOLERANCE
-        return found if 0.0 < found < float("inf") else TOLERANCE
+            return default
+        return found if 0.0 < found < float("inf") else default
 
     def set_tolerance(self, purpose: str, value: float) -> None:
         self._store.setValue(f"tolerance/{purpose}", value)

@@ -30,8 +30,9 @@ from .curves.joints_page import JointsPage
 from .curves.nodes_page import NodesPage
 from .curves.panel import CurvePanel
 from .curves.splines.spline_page import SplinePage
-from .docks import arrange, give_sizes, switch_layout
+from .docks import FAULTS_HEIGHT, arrange, give_sizes, raise_dock, switch_layout
 from .evaluation import Evaluation
+from .faults.panel import FaultsPanel
 from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
@@ -192,6 +193,7 @@ class MainWindow(QMainWindow):
         self.surfaces = SurfacesPanel(self)
         self.pipeline = PipelinePanel(self)
         self.mesh = MeshPanel(self)
+        self.faults = FaultsPanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -217,6 +219,7 @@ class MainWindow(QMainWindow):
             },
             bottom={
                 "Problems": self.problems,
+                "Faults": self.faults,
                 "Sections": self.sections,
                 "Script": self.script,
                 "Measure": self.measurements,
@@ -245,6 +248,7 @@ class MainWindow(QMainWindow):
             self.script,
             self.surfaces,
             self.mesh,
+            self.faults,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)
@@ -299,6 +303,9 @@ class MainWindow(QMainWindow):
     def show_problems(self) -> None:
         self.docks["Problems"].show()
         self.docks["Problems"].raise_()
+
+    def show_faults(self) -> None:
+        raise_dock(self, "Faults", FAULTS_HEIGHT)
 
     def count_problems(self, count: int) -> None:
         self.docks["Problems"].setWindowTitle(f"Problems ({count})" if count else "Problems")

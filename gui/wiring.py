@@ -32,6 +32,7 @@ def connect(window: MainWindow) -> None:
     )
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
+    _faults(window)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
     _pipeline(window)
     window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
@@ -61,6 +62,7 @@ def _words(window: MainWindow) -> None:
         window.surfaces,
         window.pipeline,
         window.mesh,
+        window.faults,
         window.light_tool,
         window.mapping_tool,
     ):
@@ -146,6 +148,23 @@ def _editing(window: MainWindow) -> None:
     tool.box_changed.connect(window.actions_.refresh)
     window.spline_page.told.connect(window.status.say)
     window.curve.changed.connect(lambda: None if window.session.previewing else window.actions_.refresh())
+
+
+def _faults(window: MainWindow) -> None:
+    """What comes in from a file is looked at; the panel comes to the front where that has faults."""
+    panel = window.faults
+    window.docks["Faults"].visibilityChanged.connect(panel.set_in_front)
+    window.docks["Faults"].visibilityChanged.connect(window.actions_.refresh)
+    window.files.opened.connect(panel.document_opened)
+    window.files.brought_in.connect(panel.checks.look_at_arrivals)
+    panel.said.connect(window.status.say)
+    panel.listed.connect(window.actions_.refresh)
+
+    def show(words: str) -> None:
+        window.show_faults()
+        window.status.say(words)
+
+    panel.dirty.connect(show)
 
 
 def _drawing(window: MainWindow) -> None:

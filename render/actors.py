@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
-from .look import Look, palette, rgb
+from .look import Look, mixed, palette, rgb
 from .outline import Adjacency
 from .polydata import cells_of, lines_of, places_in, set_cell_colours, surface_of, vtk_array
 from .shading import unlit
@@ -24,6 +24,7 @@ Path = tuple[str | int, ...]
 
 SHEET = 0.22  # opacity of what an outline fills
 SHEET_OFFSET = (0.0, 0.0)  # slope and steps of depth behind lines; faces of solids stand at (2, 2)
+FADED = 0.7  # how much of the ground is mixed into the lines of what is faded
 SELECTED, HOVERED = 0.42, 0.28  # how much of the highlight's colour is mixed into a face
 
 
@@ -33,6 +34,8 @@ class SolidActors:
     def __init__(self, mesh: "DisplayMesh", colours: Any) -> None:
         self.mesh = mesh
         self.colours = colours
+        self.faded = False
+        """Whether only faint lines are drawn of it."""
         self.surface = surface_of(mesh)
         self.features = lines_of(mesh.edge_points, mesh.edges)
         self._outline = lines_of(mesh.edge_points, mesh.edges[:0])
@@ -104,17 +107,19 @@ class SolidActors:
             unlit(self.faces)
             self.faces.GetProperty().SetRepresentationToSurface()
             self.faces.GetProperty().SetOpacity(SHEET if style in ("shaded", "edges") else 0.0)
-        self.edges.SetVisibility(style != "shaded" or self.mesh.sheet)
-        self.silhouette.SetVisibility(style in ("wireframe", "hidden-line") and not self.mesh.sheet)
+        self.edges.SetVisibility(self.faded or style != "shaded" or self.mesh.sheet)
+        self.silhouette.SetVisibility((self.faded or style in ("wireframe", "hidden-line")) and not self.mesh.sheet)
         # VTK offsets lines by 4 units, enough to shine through thin walls; in wireframe they lie over all triangles.
         nearer = 2000.0 if style == "wireframe" else -3.0
-        line = look.edge if style == "edges" and not self.mesh.sheet else look.line
+        line = rgb(look.edge if style == "edges" and not self.mesh.sheet else look.line)
+        if self.faded:
+            line = mixed(rgb(look.line), rgb(look.plain_background), FADED)
         for lines, colour, width in (
             (self.edges, line, line_width),
             (self.silhouette, line, line_width),
-            (self.outline, look.selection, 1.6 * line_width),
+            (self.outline, rgb(look.selection), 1.6 * line_width),
         ):
-            lines.GetProperty().SetColor(*rgb(colour))
+            lines.GetProperty().SetColor(*colour)
             lines.GetProperty().SetLineWidth(width)
             lines.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -nearer)
         self.outline.GetMapper().SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -nearer - 1.0)

@@ -38,6 +38,7 @@ class Scene:
         self.line_scale = 1.0
         self.selection: frozenset[Path] = frozenset()
         self.hover: Path | None = None
+        self.faded: frozenset[str] = frozenset()
         self.hidden_surface = "zbuffer"
         self.painter = Painter(renderer)
         self._tree: Tree | None = None
@@ -71,6 +72,7 @@ class Scene:
             if entry is not None:
                 self._remove(solid_id)
             entry = SolidActors(mesh, colours)
+            entry.faded = solid_id in self.faded
             self._solids[solid_id] = entry
             for actor in entry.actors:
                 self.renderer.AddActor(actor)
@@ -112,8 +114,9 @@ class Scene:
 
     @property
     def painting(self) -> bool:
-        """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown."""
-        if self.hidden_surface != "bsp" or self._tree is None:
+        """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown, none of
+        it faded."""
+        if self.hidden_surface != "bsp" or self._tree is None or self.faded & self._solids.keys():
             return False
         shown = {key: mesh for key, mesh in self.solid_meshes.items() if len(mesh.triangles)}
         ordered = {key: mesh for key, mesh in self._tree_meshes.items() if len(mesh.triangles)}
@@ -164,6 +167,15 @@ class Scene:
             changed = {end[0] for end in (path, self.hover) if end}
             self.hover = path
             self._paint_some(changed)
+
+    def set_faded(self, solid_ids: Iterable[str]) -> None:
+        """Draw these solids as faint lines without faces, so that others stand out."""
+        faded = frozenset(solid_ids)
+        changed, self.faded = faded ^ self.faded, faded
+        for solid_id in changed & self._solids.keys():
+            entry = self._solids[solid_id]
+            entry.faded = solid_id in faded
+            self._style(entry)
 
     def set_style(self, style: str) -> None:
         """One of look.STYLES, else ValueError."""
@@ -233,8 +245,8 @@ class Scene:
         faces = [entry.faces for entry in self._solids.values() if not entry.mesh.sheet]
         self.surfaces.shadows.update(self.surfaces.lights, faces, self._solid_bounds, camera)
         self.surfaces.turn((*self.painter.actors, *faces), camera)
-        if self.style in ("wireframe", "hidden-line"):
-            for entry in self._solids.values():
+        for entry in self._solids.values():
+            if entry.faded or self.style in ("wireframe", "hidden-line"):
                 entry.turn_silhouette(camera)
         window = self.renderer.GetRenderWindow()
         if window is not None:
@@ -248,7 +260,7 @@ class Scene:
         painting = self.painting
         by_painter = painting and self.style != "wireframe"
         for entry in self._solids.values():
-            entry.faces.SetVisibility(not by_painter or entry.mesh.sheet)
+            entry.faces.SetVisibility((not by_painter or entry.mesh.sheet) and not entry.faded)
         self.renderer.SetUseDepthPeeling(self.peeling)
         if not by_painter:
             self.painter.hide()

@@ -140,6 +140,11 @@ class Viewer:
         self.needs_render = True
         return True
 
+    def set_faded(self, solid_ids: Iterable[str]) -> None:
+        """See `Scene.set_faded`."""
+        self.scene.set_faded(solid_ids)
+        self.needs_render = True
+
     def set_sections(self, sections: "Iterable[Section]", dragged: bool = False) -> None:
         """See `Scene.set_sections`."""
         self.scene.set_sections(sections, dragged)

@@ -12,6 +12,7 @@ from .curves import CURVE_COMMANDS
 from .draw_tools import DRAW_COMMANDS
 from .drawing import DRAWING_COMMANDS
 from .engraving import ENGRAVING_COMMANDS
+from .faults import FAULT_COMMANDS
 from .fonts import FONT_COMMANDS
 from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
@@ -55,6 +56,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (HANDLE_COMMANDS, window),
         (MEASURE_COMMANDS, window),
         (SIGHT_COMMANDS, window),
+        (FAULT_COMMANDS, window),
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
         (SURFACE_COMMANDS, window),

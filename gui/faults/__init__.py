@@ -1,0 +1,1 @@
+"""The Faults panel: what is wrong with meshes and drawings, where, and what mends it."""
