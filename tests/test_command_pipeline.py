@@ -76,7 +76,7 @@ def test_a_point_beside_the_eye_has_no_pixel_and_says_so(solidtree, file):
     """w is 0: the division has no result, which is no number that could be taken for a place."""
     way = pipeline((5, -50, 0), eye=(0, -50, 0))
     assert "w is 0" in way.stages[3].words and "has no pixel" in way.stages[5].words
-    assert "undefined" in str(way).splitlines()[-1] and "near" in way.outside
+    assert str(way).splitlines()[-1].split() == ["Pixel", "none", "none", "none"] and "near" in way.outside
     status, out, err = solidtree("pipeline", file, "--point", "0,-100,0", "--target", "0,0,0", *EYE)
     assert (status, err) == (0, "") and json.loads(out)["point"]["stages"][5]["coordinates"] == [None] * 3
 

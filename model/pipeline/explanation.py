@@ -31,7 +31,7 @@ class Stage:
 def number(value: float, digits: int = 5) -> str:
     """In `digits` significant ones, with a proper minus; words for what is none."""
     if math.isnan(value):
-        return "undefined"
+        return "none"
     if math.isinf(value):
         return "\u221e" if value > 0.0 else f"{MINUS}\u221e"
     text = f"{value:.{digits}g}" if abs(value) > 1e-12 else "0"
