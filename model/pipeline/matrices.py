@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -50,10 +50,6 @@ class Matrices:
     def unprojected(self, pixels: ArrayLike) -> Floats:
         """(n, 3) the points of the world at pixels (n, 3), the third the depth."""
         return unprojected(pixels, self.view, self.projection, self.viewport)
-
-    def with_(self, name: str, matrix: ArrayLike) -> Matrices:
-        """With another matrix by the name. Raises Refusal where it is none."""
-        return replace(self, **{name: checked(matrix, name)})
 
 
 @dataclass(frozen=True, slots=True)

@@ -86,12 +86,13 @@ class FrustumPainter:
         self._painter.setBrush(fill)
         corners, counts = flow.cut.corners, flow.cut.counts
         shown = self._shown(corners).reshape(-1, 3)
-        finite = np.isfinite(shown).all(axis=1)
+        finite = np.all(np.isfinite(shown), axis=1)
         places = self._view.to_widget(np.where(finite[:, None], shown, 0.0)).reshape(*corners.shape[:2], 2)
         unused = np.arange(corners.shape[1]) >= counts[:, None]
-        proper = (finite.reshape(unused.shape) | unused).all(axis=1)
-        for row, count in zip(places[proper].tolist(), counts[proper].tolist(), strict=True):
-            self._painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in row[:count]]))
+        proper = np.all(finite.reshape(unused.shape) | unused, axis=1)
+        for number in np.flatnonzero(proper).tolist():
+            polygon = places[number, : counts[number]].tolist()
+            self._painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in polygon]))
         self._painter.setBrush(Qt.BrushStyle.NoBrush)
 
     def _frustum(self, flow: Flow) -> None:
