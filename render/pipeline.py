@@ -26,11 +26,9 @@ def matrices_of(camera: Camera, size: tuple[float, float], clipping: tuple[float
 
 
 def shown_clipping(viewer: Viewer) -> tuple[float, float]:
-    """Where the near and the far plane of the picture stood that was rendered last, in mm before the eye."""
-    vtk_camera = viewer.renderer.GetActiveCamera()
-    near, far = vtk_camera.GetClippingRange()
-    shift = vtk_camera.GetDistance() - viewer.camera.distance  # in parallel projection VTK's eye stands farther back
-    return near - shift, far - shift
+    """Where the near and the far plane of the picture stand, in mm before the eye; of a camera that has just been set,
+    too, whose picture is still to be rendered."""
+    return viewer.clipping or clipping_about(viewer.camera, viewer.drawn_bounds)
 
 
 def clipping_about(camera: Camera, bounds: NDArray[np.float64] | None) -> tuple[float, float]:

@@ -84,8 +84,7 @@ class Viewer:
             return
         self.ground.update(self.camera)
         self.scene.before_render(self.camera, self.ground.height)
-        bounds = union(union(self.scene.visible_bounds(), self.ground.bounds), self.ghosts.bounds)
-        camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
+        camera_value.apply(self.camera, self.renderer.GetActiveCamera(), self.drawn_bounds)
         if self.clipping is not None:
             shift = self.renderer.GetActiveCamera().GetDistance() - self.camera.distance
             self.renderer.GetActiveCamera().SetClippingRange(*(distance + shift for distance in self.clipping))
@@ -96,6 +95,11 @@ class Viewer:
             self._smooth()
         self.window.Render()
         self.needs_render = False
+
+    @property
+    def drawn_bounds(self) -> NDArray[np.float64] | None:
+        """(2, 3) of all that near and far plane are put about, ground and ghosts included; None for nothing."""
+        return union(union(self.scene.visible_bounds(), self.ground.bounds), self.ghosts.bounds)
 
     def pixels(self) -> NDArray[np.uint8]:
         """What was rendered last: (height, width, 3) bytes in device pixels, first row on top."""

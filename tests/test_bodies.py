@@ -7,7 +7,8 @@ from manifold3d import Manifold
 from solidtree.model.document.errors import Refusal
 from solidtree.model.measuring.distance import distance as nearest_triangles
 from solidtree.model.proximity.bodies import Body, clashes, relation
-from solidtree.model.script import box, clearances, cylinder, distance, overlap, sphere
+from solidtree.model.script import box, circle, clearances, cylinder, distance, halfspace, overlap, sphere
+from solidtree.model.script import relation as relation_of
 from solidtree.model.solid.results import arrays_of
 
 
@@ -111,6 +112,23 @@ def test_scripts_ask_in_the_same_words():
     pairs = clearances([box(2).named("a"), box(2).at(2.5).named("b"), box(2).at(9).named("c").hidden()], 1)
     assert [(p["a"], p["b"], p["relation"], p["gap"]) for p in pairs] == [("a", "b", "apart", 0.5)]
     assert [x for x, _, _ in pairs[0]["points"]] == [2, 2.5]
+
+
+def test_scripts_refuse_what_has_no_answer():
+    with pytest.raises(Refusal, match="an outline is none"):
+        distance(circle(5), box(1))
+    with pytest.raises(Refusal, match=r"“Ground”.*without end"):
+        distance(halfspace().named("Ground"), box(1))
+    with pytest.raises(Refusal, match=r"“Ground”.*without end"):  # and not an empty list: nobody has looked
+        clearances([box(1), halfspace().named("Ground")], 1)
+    for clearance in (-1, np.nan, np.inf):
+        with pytest.raises(Refusal, match="a clearance is 0 mm or more"):
+            clearances([box(1), box(1).at(3)], clearance)
+
+
+def test_solids_that_touch_far_from_the_origin_touch():
+    one, other = (box(10).at(1e5 + x).turned(z=30) for x in (0, 10))
+    assert relation_of(one, other).kind == "touching"
 
 
 def test_corpus_solids_at_random_places(corpus):

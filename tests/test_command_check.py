@@ -31,7 +31,7 @@ def test_pairs_come_nearest_first(assembly, capsys):
 def test_nothing_too_near_is_status_0(tmp_path, capsys):
     path = tmp_path / "two.solidtree"
     save(path, box(10), box(10).at(10))
-    assert main(["check", str(path)]) == 0  # touching
+    assert main(["check", str(path), "--clearance", "0.00"]) == 0  # touching
     assert json.loads(capsys.readouterr().out)["pairs"] == []
     assert main(["check", str(path), "--clearance", "0.1"]) == 1
     assert json.loads(capsys.readouterr().out)["pairs"][0]["relation"] == "touching"

@@ -64,8 +64,25 @@ def test_scripts_follow_points_and_count():
     culled, whole = (pipeline_counts(sphere(10, segments=24), eye=(0, -60, 20), cull=cull) for cull in (True, False))
     assert culled.away > 0 and culled.pixels == whole.pixels and culled.fragments < whole.fragments
     assert whole.triangles == culled.triangles == culled.away + culled.polygons
-    for wrong in (dict(near=10, far=5), dict(near=-1), dict(size=(0, 10)), dict(model=np.zeros((4, 4)))):
+    for wrong in (dict(near=10, far=5), dict(near=-1), dict(size=(0, 10)), dict(model=np.zeros((4, 4))),
+                  dict(size=(np.inf, 10)), dict(perspective=None, half_height=0), dict(model=np.eye(3))):  # fmt: skip
         with pytest.raises(Refusal):
             pipeline((0, 0, 0), (0, -50, 0), **wrong)
     with pytest.raises(Refusal, match="same point"):
         pipeline((0, 0, 0), (0, 0, 0))
+
+
+def test_a_point_beside_the_eye_has_no_pixel_and_says_so(solidtree, file):
+    """w is 0: the division has no result, which is no number that could be taken for a place."""
+    way = pipeline((5, -50, 0), eye=(0, -50, 0))
+    assert "w is 0" in way.stages[3].words and "has no pixel" in way.stages[5].words
+    assert str(way).splitlines()[-1].split() == ["Pixel", "none", "none", "none"] and "near" in way.outside
+    status, out, err = solidtree("pipeline", file, "--point", "0,-100,0", "--target", "0,0,0", *EYE)
+    assert (status, err) == (0, "") and json.loads(out)["point"]["stages"][5]["coordinates"] == [None] * 3
+
+
+def test_a_model_matrix_moves_what_is_counted():
+    view = dict(eye=(0, -50, 0), perspective=None, half_height=10, size=(200, 200))
+    plain = pipeline_counts(box(2, centred=True), **view)
+    large = pipeline_counts(box(2, centred=True), model=np.diag((3, 3, 3, 1)), **view)
+    assert (plain.pixels, large.pixels) == (400, 3600)

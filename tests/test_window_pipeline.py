@@ -5,6 +5,7 @@ import re
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QFontMetricsF
 from PySide6.QtWidgets import QApplication
 from replay import replayed
 
@@ -13,7 +14,7 @@ from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import find
 from solidtree.model.pipeline.explanation import number
 from solidtree.model.script import box, document_of, halfspace, linear_array, sphere, union
-from solidtree.render.camera import orbit, project
+from solidtree.render.camera import orbit, project, zoom
 from solidtree.render.picture import ids_picture, numbers_of
 
 pytest_plugins = ["window_driver"]
@@ -263,7 +264,7 @@ def test_counts_are_those_of_the_picture_and_planes_can_be_switched_off(make_win
     page.tabs.setCurrentIndex(0)
     write(driver, page.frame.lens.fields["near"], f"{viewer.camera.distance}")
     near = counted(driver, panel)
-    assert near.cut > 0 and near.outside > 0 and panel.explorer.flow.cut
+    assert near.cut > 0 and near.outside > 0 and len(panel.explorer.flow.cut.counts) == near.cut
     brute = panel.explorer.flow
     heights = brute.matrices.clip(brute.geometry.points)[brute.geometry.triangles] @ (0, 0, 1, 1)
     assert near.outside == (heights < 0).all(axis=1).sum()
@@ -331,3 +332,72 @@ def test_the_second_view_turns_zooms_and_shows_the_cube(make_window):
     driver.qtbot.mouseClick(page.pixels, LEFT, pos=frame.center().toPoint())
     front = driver.window.viewport.viewer.pick(*(side / 2 for side in driver.window.viewport.viewer.size)).point
     np.testing.assert_allclose(stage(page, "World"), front, atol=0.2)  # within a pixel of the middle
+
+
+def test_a_model_matrix_is_tried_on_its_node_alone(make_window):
+    driver, panel, page = opened(make_window, box(20).named("Block"), box(20).at(40).named("Other"))
+    grid = page.matrices.grids["model"]
+    page.tabs.setCurrentIndex(1)
+    type_entry(driver, grid, 2, 3, "5")
+    assert "pick a vertex of a solid first" in driver.window.statusBar().currentMessage().lower()
+    assert not page.state.isVisible() and grid.matrix[2, 3] == 0
+    click_corner(driver, panel)
+    type_entry(driver, grid, 2, 3, "5")
+    assert page.state.isVisible() and stage(page, "World")[2] == 25
+    page.solid.activated.emit(1)  # a vertex of the other one
+    assert not page.state.isVisible() and stage(page, "World")[2] < 25
+    click_corner(driver, panel)
+    type_entry(driver, grid, 2, 3, "5")
+    driver.session.do("delete", [driver.node("Block").id])
+    driver.settle()
+    driver.qtbot.waitUntil(lambda: not page.state.isVisible())
+    assert panel.explorer.subject is None
+
+
+def test_a_lens_that_is_tried_stays_when_the_window_gets_another_size(make_window):
+    driver, panel, page = opened(make_window)
+    viewer = driver.window.viewport.viewer
+    write(driver, page.frame.lens.fields["angle"], "50")
+    before, size = viewer.size[0] / viewer.size[1], driver.window.size()
+    driver.window.resize(size.width() + 150, size.height() - 60)
+    driver.qtbot.waitUntil(lambda: abs(viewer.size[0] / viewer.size[1] / before - 1) > 0.05)
+    driver.qtbot.waitUntil(lambda: not panel.explorer._soon.isActive())
+    page.tabs.setCurrentIndex(1)
+    driver.qtbot.mouseClick(page.matrices.applies["projection"], LEFT)
+    assert viewer.camera.view_angle == pytest.approx(50) and not page.state.isVisible()
+
+
+def test_another_document_is_shown_whole_whatever_its_size(make_window):
+    driver, panel, page = opened(make_window)
+    view = page.frame.view
+    for size in (0.01, 1e6):
+        driver.open(document_of(box(size).named("Only")))
+        meshes = driver.window.viewport.viewer.scene.solid_meshes
+        driver.qtbot.waitUntil(lambda meshes=meshes: panel.explorer.flow.geometry.meshes == tuple(meshes.values()))
+        corners = view.to_widget(panel.explorer.flow.geometry.bounds)
+        assert (corners > 0).all() and (corners < (view.width(), view.height())).all()
+        assert np.ptp(corners, axis=0).max() > 5, size
+        for factor in (30.0, 1.0 / 900.0, 30.0):
+            driver.window.viewport.change(lambda v, factor=factor: v.set_camera(zoom(v.camera, factor)))
+            write(driver, page.point, "0, 0, 0")  # before the picture is rendered again
+            assert stage(page, "World")[0] == 0
+    driver.session.do("rename", driver.node("Only").id, "Renamed")
+    driver.qtbot.waitUntil(lambda: page.solid.itemText(0) == "Renamed")
+    driver.open(document_of())
+    driver.qtbot.waitUntil(lambda: "add a solid" in page.counts.words.text())
+
+
+def test_the_panel_fits_a_small_window_and_its_columns(make_window):
+    driver, panel, page = opened(make_window, box(20).at(1.6).named("Block"))
+    driver.window.resize(1024, 700)
+    click_corner(driver, panel, (21.6, 0, 20))
+    page.frame.lens.tried.emit("near", driver.window.viewport.viewer.camera.distance)
+    for tab in range(page.tabs.count()):
+        page.tabs.setCurrentIndex(tab)
+        QApplication.processEvents()
+        assert driver.window.height() == 700, page.tabs.tabText(tab)
+    table = page.stages
+    for row in range(table.rowCount()):
+        for column in range(1, 5):
+            item = table.item(row, column)
+            assert QFontMetricsF(item.font()).horizontalAdvance(item.text()) < table.columnWidth(column) - 8

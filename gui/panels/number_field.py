@@ -82,6 +82,7 @@ class NumberField(TextLine):
         self._value = value
         if not typing and self.text() != text_of(value):
             self.setText(text_of(value))
+            self.set_fault(False)
 
     def set_fault(self, fault: bool) -> None:
         if bool(self.property("fault")) != fault:

@@ -31,6 +31,7 @@ STEPS = (
     ("Overdraw", "overdraw", "Fragments for each covered pixel"),
 )
 WAITING = "Counting \u2026"
+NOTHING = "Nothing is shown: add a solid, or show one."
 
 
 class CountsPage(QWidget):
@@ -69,6 +70,13 @@ class CountsPage(QWidget):
         layout.setSpacing(0)
         layout.addWidget(self.table, 1)
         layout.addWidget(self.words)
+
+    def show_nothing(self) -> None:
+        """There is nothing to be counted."""
+        self.counts = None
+        for item in self._values:
+            item.setText("")
+        self.words.setText(NOTHING)
 
     def show_counts(self, counts: Counts | None) -> None:
         """None while they are worked out: the last ones stay, and words say so."""

@@ -101,6 +101,7 @@ class PipelineExplorer(QObject):
         self.follow_point(None)
         if self.trial.active:
             self.trial.reset()
+        self._page.frame.view.forget()
 
     # The vertex.
 
@@ -126,9 +127,16 @@ class PipelineExplorer(QObject):
             self.refused.emit(sentence(refusal))
 
     def _take(self, subject: Subject | None) -> None:
+        if subject is None or self.subject is None or subject.path != self.subject.path:
+            self._drop_model()
         self.subject = subject
         self._seen = None
         self._follow()
+
+    def _drop_model(self) -> None:
+        """A model matrix is tried on one node, and on no other that is followed next."""
+        if "model" in self.trial.matrices:
+            self.trial.reset("model")
 
     @property
     def _solids(self):
@@ -153,8 +161,9 @@ class PipelineExplorer(QObject):
         meshes = tuple(self._meshes.values())
         looks, camera = self._window.looks, viewer.camera
         trial = (self.trial.words, *(matrix.tobytes() for matrix in self.trial.matrices.values()))
+        names = tuple(root.label for root in self._window.session.document.solids)
         seen = (camera, viewer.size, live.projection.tobytes(), live.model.tobytes(), meshes, looks.culling,
-                looks.clipping, trial)  # fmt: skip
+                looks.clipping, trial, names)  # fmt: skip
         if seen == self._seen:
             return
         self._seen = seen
@@ -174,8 +183,9 @@ class PipelineExplorer(QObject):
 
         place = None if self.subject is None else place_of(self.subject, self._solids)
         if self.subject is not None and self.subject.path and place is None:
-            self.subject = None  # its node is gone
+            self._take(None)  # its node is gone
         live = matrices_of(viewer.camera, viewer.size, shown_clipping(viewer))
+        self.trial.resized(viewer.size[0] / viewer.size[1])
         return replace(live, model=model_matrix(place)), place
 
     def _show_vertex(self, live: Matrices, matrices: Matrices) -> None:
@@ -204,7 +214,7 @@ class PipelineExplorer(QObject):
         geometry = self._geometry
         if not len(geometry.triangles):
             self._show(None)
-            self._page.counts.show_counts(None)
+            self._page.counts.show_nothing()
             return
         point = None
         if self.subject is not None:
@@ -260,7 +270,12 @@ class PipelineExplorer(QObject):
     # What is tried.
 
     def _try_matrix(self, name: str, matrix: np.ndarray) -> None:
-        self._try(lambda: self.trial.set_matrix(name, matrix))
+        self._try(lambda: self._set_matrix(name, matrix))
+
+    def _set_matrix(self, name: str, matrix: np.ndarray) -> None:
+        if name == "model" and (self.subject is None or not self.subject.path):
+            raise Refusal("pick a vertex of a solid first: the model matrix is that of the node that made it")
+        self.trial.set_matrix(name, matrix)
 
     def _try_lens(self, name: str, value: float) -> None:
         viewer = self._viewport.viewer
@@ -283,10 +298,12 @@ class PipelineExplorer(QObject):
 
     def _apply(self, name: str) -> None:
         viewer = self._viewport.viewer
-        matrix = self.trial.matrices.get(name)
-        if viewer is None or matrix is None:
+        if viewer is None:
             return
         live, place = self._live(viewer)
+        matrix = self.trial.matrices.get(name)
+        if matrix is None:
+            return
         try:
             apply_matrix(self._window, name, matrix, live, place)
         except Refusal as refusal:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from ...model.pipeline.clipping import Drawn, clipped_lines, drawn
+from ...model.pipeline.clipping import Drawn, Polygons, clipped_lines, drawn
 from ...model.pipeline.matrices import NAMES
 from ...model.pipeline.stages import divided
 
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 AT_ONCE = 30_000
 """Triangles that are clipped for every picture; more only when the camera rests."""
+MOST_CUT = 800
 CUBE = np.array([(x, y, z) for z in (-1.0, 1.0) for x, y in ((-1, -1), (1, -1), (1, 1), (-1, 1))])
 """(8, 3) the corners of what is visible in device coordinates: the near side and the far one."""
 BEFORE_EYE = np.array([(0.0, 0.0, 0.0, 1.0)])
@@ -97,8 +98,11 @@ class Flow:
         """(4,) the followed point in clip coordinates."""
         return None if self.point is None else self.matrices.clip(self.point[None])[0]
 
-    @property
-    def cut(self) -> list[Floats]:
-        """Polygons (k, 4) in clip coordinates that a plane has cut."""
+    @cached_property
+    def cut(self) -> Polygons:
+        """In clip coordinates those that a plane has cut, the first MOST_CUT of them."""
         found = self.drawn
-        return [] if found is None else [found.polygons.polygon(i) for i in np.flatnonzero(found.cut).tolist()]
+        if found is None:
+            return Polygons(np.zeros((0, 3, 4)), np.zeros(0, np.int64))
+        some = np.flatnonzero(found.cut)[:MOST_CUT]
+        return Polygons(found.polygons.corners[some], found.polygons.counts[some])

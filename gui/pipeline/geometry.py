@@ -54,15 +54,15 @@ def geometry_of(meshes: Sequence[DisplayMesh]) -> Geometry:
     facets = [mesh.facet + start for mesh, start in zip(meshes, starts, strict=False)]
     facet = np.concatenate([np.zeros(0, np.int64), *facets])
     if len(triangles) > MOST_SEARCHED:
-        some = _sample(len(triangles), MOST_LINES // 3)
+        some = sample(len(triangles), MOST_LINES // 3)
         ends = np.stack((triangles[some], np.roll(triangles[some], -1, axis=1)), axis=2).reshape(-1, 2)
         return Geometry(tuple(meshes), points, triangles, points[ends], np.repeat(some, 3))
     ends, triangle = _between_facets(triangles, facet, len(points))
-    some = _sample(len(ends), MOST_LINES)
+    some = sample(len(ends), MOST_LINES)
     return Geometry(tuple(meshes), points, triangles, points[ends[some]], triangle[some])
 
 
-def _sample(count: int, most: int) -> NDArray[np.int64]:
+def sample(count: int, most: int) -> NDArray[np.int64]:
     """All of so many numbers, or `most` of them, evenly."""
     return np.linspace(0, count - 1, min(count, most)).astype(np.int64)
 

@@ -79,6 +79,7 @@ class PipelinePage(QWidget):
         self.vertex = NumberField(Steps(fine=1.0, minimum=0.0), self)
         self.vertex.setAccessibleName("Number of the vertex")
         self.vertex.setPlaceholderText("vertex")
+        self.vertex.setMinimumWidth(self.vertex.fontMetrics().horizontalAdvance("vertex") + 24)
         self.vertex.setToolTip("A vertex by its number in the mesh of the solid; arrow keys go to the next")
         self.vertex.typed.connect(self._number)
         self.vertex.stepping.connect(lambda number: self.vertex_chosen.emit(self.solid.currentIndex(), int(number)))

@@ -8,9 +8,11 @@ from PySide6.QtCore import QEvent, QLineF, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QColor, QImage, QMouseEvent, QPainter, QPaintEvent, QPen
 from PySide6.QtWidgets import QWidget
 
+from ...model.pipeline.clipping import Polygons
 from ...model.pipeline.stages import divided
 from ..theme import colours_now
 from .flow import Flow
+from .geometry import sample
 from .inks import inks_now
 
 MODES = (
@@ -19,6 +21,7 @@ MODES = (
     ("layers", "Overdraw", "How many polygons cover each pixel: the stronger, the more"),
 )
 MOST_SIDES = 10_000
+"""About so many sides are drawn; of more polygons those of a sample."""
 SMOOTH = 2000
 MARGIN = 6.0  # pixels
 WAITING = "The pixels are worked out when the picture rests."
@@ -132,6 +135,9 @@ class PixelsView(QWidget):
             self._say(painter, WAITING)
             return
         polygons = found.polygons
+        if len(polygons.counts) > MOST_SIDES // 3:
+            some = sample(len(polygons.counts), MOST_SIDES // 3)
+            polygons = Polygons(polygons.corners[some], polygons.counts[some])
         place, counts = np.arange(polygons.corners.shape[1]), polygons.counts[:, None]
         used, after = place < counts, np.where(place + 1 < counts, place + 1, 0)
         with np.errstate(all="ignore"):
@@ -139,8 +145,6 @@ class PixelsView(QWidget):
         following = np.take_along_axis(corners, after[..., None], axis=1)
         sides = np.concatenate((corners[used], following[used]), axis=1)
         sides = sides[np.isfinite(sides).all(axis=1) & (np.abs(sides) < 1e6).all(axis=1)]
-        if len(sides) > MOST_SIDES:
-            sides = sides[np.linspace(0, len(sides) - 1, MOST_SIDES).astype(int)]
         scale = frame.width() / flow.size[0]
         sides = sides * scale + np.array((frame.x(), frame.y(), frame.x(), frame.y()))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing, len(sides) <= SMOOTH)

@@ -16,6 +16,8 @@ from .matrix_grid import monospaced
 TITLES = ("", "x", "y", "z", "w")
 ROW = 22  # pixels
 PIXEL = "Pixel"
+ROOM = 8
+"""Characters that a column is wide in a narrow panel."""
 FIRST = 3
 """The row that is chosen at first: clip coordinates, where it is decided what is seen."""
 
@@ -94,7 +96,8 @@ class StageTable(QTableWidget):
 
 
 def _text(stage: Stage, value: float) -> str:
-    """Pixels to a hundredth, other numbers to five digits."""
+    """Pixels to a hundredth, other numbers to five digits, or as many as the column has room for."""
     if stage.name == PIXEL and 1.5 < abs(value) < 1e6:
         return f"{value:.2f}".replace("-", MINUS)
-    return number(value)
+    texts = [number(value, digits) for digits in (5, 4, 3, 2)]
+    return next((text for text in texts if len(text) <= ROOM), texts[-1])

@@ -26,6 +26,7 @@ class Trial(QObject):
         super().__init__(parent)
         self._matrices: dict[str, Floats] = {}
         self._planes = np.ones(len(PLANES), bool)
+        self._aspect = 1.0
 
     @property
     def matrices(self) -> Mapping[str, Floats]:
@@ -55,6 +56,14 @@ class Trial(QObject):
     def of(self, live: Matrices) -> Matrices:
         """The matrices of the picture, with those that are changed here."""
         return replace(live, **self._matrices)
+
+    def resized(self, aspect: float) -> None:
+        """The picture has another width by height: a projection that is tried stays the same but for that."""
+        if "projection" in self._matrices and aspect != self._aspect:
+            self._matrices["projection"] = (
+                np.array([[self._aspect / aspect], [1.0], [1.0], [1.0]]) * (self._matrices["projection"])
+            )
+        self._aspect = aspect
 
     def set_matrix(self, name: str, matrix: ArrayLike) -> None:
         """Try another matrix. Raises Refusal for one that cannot be."""

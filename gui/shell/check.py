@@ -38,4 +38,7 @@ def check(options: argparse.Namespace) -> int:
 
 
 def _clearance(text: str) -> float:
-    return 0.0 if text.strip() in ("0", "0.0") else positive(text)
+    try:
+        return float(text) and positive(text)
+    except ValueError:
+        return positive(text)

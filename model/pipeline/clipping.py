@@ -22,10 +22,6 @@ class Polygons:
     corners: Floats
     counts: NDArray[np.int64]
 
-    def polygon(self, number: int) -> Floats:
-        """(c, 4) the corners of one."""
-        return self.corners[number, : self.counts[number]]
-
 
 def clipped(triangles: Floats, planes: Floats = PLANES) -> Polygons:
     """Triangles (n, 3, 4), or polygons (n, k, 4) of k corners each, in clip coordinates, cut off at planes (p, 4).

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,7 +29,11 @@ class Stage:
 
 
 def number(value: float, digits: int = 5) -> str:
-    """In `digits` significant ones, with a proper minus."""
+    """In `digits` significant ones, with a proper minus; words for what is none."""
+    if math.isnan(value):
+        return "none"
+    if math.isinf(value):
+        return "\u221e" if value > 0.0 else f"{MINUS}\u221e"
     text = f"{value:.{digits}g}" if abs(value) > 1e-12 else "0"
     return text.replace("-", MINUS)
 
@@ -38,6 +43,7 @@ def outside(clip: Floats) -> tuple[str, ...]:
     return tuple(name for name, height in zip(PLANE_NAMES, PLANES @ clip, strict=True) if height < 0.0)
 
 
+@np.errstate(all="ignore")
 def way_of(matrices: Matrices, point: Floats) -> tuple[Stage, ...]:
     """Of a point (3,) in its node's own axes, from there to the pixel."""
     own = np.array([*point, 1.0])
@@ -46,7 +52,13 @@ def way_of(matrices: Matrices, point: Floats) -> tuple[Stage, ...]:
     clip, device, pixel = found.clip[0], found.device[0], found.pixel[0]
     beyond = outside(clip)
     seen = "inside all six planes: it is seen" if not beyond else f"outside the {_list(beyond)}: it is clipped"
-    behind = "; the eye has it behind itself: w is not above 0" if clip[3] <= 0.0 else ""
+    behind = "; the eye has it behind itself: w is not above 0" if clip[3] < 0.0 else ""
+    whole = clip[3] != 0.0
+    device_words = f"clip divided by w: the frustum has become the cube from {MINUS}1 to 1"
+    pixel_words = "x to the right, y downward from the upper left corner; z is the depth, 0 near to 1 far"
+    if not whole:
+        behind = "; w is 0: it lies beside the eye, neither before it nor behind it"
+        device_words, pixel_words = "w is 0, and nothing can be divided by 0", "a point beside the eye has no pixel"
     return (
         Stage("Model", _tuple(own[:3]), (), "in the model's own axes, in mm"),
         Stage("World", _tuple(world[:3]), _rows(matrices.model, own, 3), "in the document's axes, in mm"),
@@ -56,10 +68,9 @@ def way_of(matrices: Matrices, point: Floats) -> tuple[Stage, ...]:
               f"seen is where {MINUS}w \u2264 x, y, z \u2264 w; {seen}{behind}"),
         Stage("Device", _tuple(device), tuple(
             f"{axis} = {number(value)} / {_put(clip[3])} = {number(result)}"
-            for axis, value, result in zip(AXES, clip, device, strict=False)),
-            f"clip divided by w: the frustum has become the cube from {MINUS}1 to 1"),
-        Stage("Pixel", _tuple(pixel), _rows(matrices.viewport, np.append(device, 1.0), 3),
-              "x to the right, y downward from the upper left corner; z is the depth, 0 near to 1 far"),
+            for axis, value, result in zip(AXES, clip, device, strict=False)) if whole else (), device_words),
+        Stage("Pixel", _tuple(pixel), _rows(matrices.viewport, np.append(device, 1.0), 3) if whole else (),
+              pixel_words),
     )  # fmt: skip
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -51,10 +51,6 @@ class Matrices:
         """(n, 3) the points of the world at pixels (n, 3), the third the depth."""
         return unprojected(pixels, self.view, self.projection, self.viewport)
 
-    def with_(self, name: str, matrix: ArrayLike) -> Matrices:
-        """With another matrix by the name. Raises Refusal where it is none."""
-        return replace(self, **{name: checked(matrix, name)})
-
 
 @dataclass(frozen=True, slots=True)
 class Lens:
@@ -72,6 +68,8 @@ class Lens:
         if not (math.isfinite(self.near) and math.isfinite(self.far) and self.far > self.near):
             raise Refusal("the far plane must lie behind the near one")
         if self.angle is None:
+            if not 0.0 < self.half_height < math.inf:
+                raise Refusal("a parallel projection shows more than 0 mm to either side")
             return parallel_matrix(self.half_height, self.aspect, self.near, self.far)
         if self.near <= 0.0:
             raise Refusal("in perspective the near plane must lie before the eye: write a number above 0")
@@ -83,12 +81,14 @@ class Lens:
 def checked(matrix: ArrayLike, name: str) -> Floats:
     """(4, 4) as it is. Raises Refusal for numbers that are none, for a matrix that flattens, and for one but the
     projection's whose last row is not 0, 0, 0, 1."""
-    found = square(matrix)
+    found = np.asarray(matrix, float)
+    found = square(found) if found.shape == (3, 4) else found
     if found.shape != (4, 4) or not np.isfinite(found).all():
         raise Refusal(f"the {name} matrix needs 4 rows of 4 numbers, none of them infinite")
     if name != "projection" and not np.array_equal(found[3], (0.0, 0.0, 0.0, 1.0)):
         raise Refusal(f"the last row of the {name} matrix is 0, 0, 0, 1: only the projection changes w")
-    size = np.linalg.norm(found, axis=0)
+    with np.errstate(over="ignore"):
+        size = np.linalg.norm(found, axis=0)
     if (size == 0.0).any() or abs(np.linalg.det(found / size)) < 1e-12:
         raise Refusal(f"the {name} matrix would flatten space: its rows must not be multiples or sums of each other")
     return found
@@ -148,8 +148,8 @@ def matrices_for(
     distance = float(np.linalg.norm(position - np.asarray(target, float)))
     near, far = 0.1 * distance if near is None else near, 10.0 * distance if far is None else far
     width, height = size
-    if not (width > 0 and height > 0):
-        raise Refusal("a picture has a width and a height above 0 pixels")
+    if not (0 < width < math.inf and 0 < height < math.inf):
+        raise Refusal("a picture has a width and a height above 0 pixels, and not infinite ones")
     own = np.eye(4) if model is None else checked(model, "model")
     lens = Lens(perspective, half_height, width / height, near, far)
     return Matrices(own, view_matrix(position, seen.axes), lens.matrix(), viewport_matrix(width, height))

@@ -21,7 +21,7 @@ Floats = NDArray[np.float64]
 class Stages:
     """Of n points: `world` and `eye` (n, 3) in mm, `clip` (n, 4), `device` (n, 3) after the division by w, and `pixel`
     (n, 3), whose third coordinate is the depth, 0 at the near plane and 1 at the far one. Behind the eye the division
-    turns points round: `clip` tells them by w <= 0."""
+    turns points round: `clip` tells them by w <= 0. Where w is 0 numbers after the division are infinite or none."""
 
     world: Floats
     eye: Floats
@@ -70,6 +70,7 @@ def viewport_matrix(width: float, height: float) -> Floats:
     ])  # fmt: skip
 
 
+@np.errstate(all="ignore")
 def stages(points: ArrayLike, model: ArrayLike, view: ArrayLike, projection: ArrayLike, viewport: ArrayLike) -> Stages:
     """Of points (n, 3) in a model's own axes; the matrices are (4, 4), that of the model may be (3, 4)."""
     own = homogeneous(np.asarray(points, float))

@@ -18,7 +18,7 @@ APART, TOUCHING, OVERLAPPING, INSIDE, AROUND = "apart", "touching", "overlapping
 """What the first of two bodies is to the second: the last two tell that one holds all of the other."""
 
 MEETING = 1e-12
-"""The share of two bodies' size within which their surfaces meet."""
+"""The share of two bodies' coordinates within which their surfaces meet."""
 OVERLAP = 1e-9
 """The part of the smaller one's volume from which an overlap is more than rounding."""
 
@@ -96,7 +96,7 @@ def relation(one: Body, other: Body, limit: float = np.inf) -> Relation | None:
     """
     if one.empty or other.empty:
         return None
-    size = float(max(np.ptp(one.bounds, axis=0).max(), np.ptp(other.bounds, axis=0).max()))
+    size = 2.0 * float(np.abs((one.bounds, other.bounds)).max())  # rounding grows with the way from the origin, too
     boxed = bool((one.bounds[0] <= other.bounds[1]).all() and (other.bounds[0] <= one.bounds[1]).all())
     found = one.tree.gap(other.tree, max(limit, 2.0 * MEETING * size))
     meets = found.length <= MEETING * size

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import Any
 
 from ..document.document import Document
+from ..document.errors import Refusal
 from ..solid.results import SolidResult, arrays_of, evaluate_document, open_surface
 from ..worker.shown import Message
 from .bodies import Body, Clash, clashes
@@ -26,7 +28,9 @@ def checked(
     told: Callable[[int, int], None] | None = None,
 ) -> tuple[dict[str, Any], tuple[Message, ...]]:
     """The pairs of visible solids that overlap or whose gap is below `clearance` mm, as plain JSON values, and what
-    evaluation had to say. `told` hears how many of the pairs have been looked at."""
+    evaluation had to say. `told` hears how many of the pairs have been looked at. Raises Refusal."""
+    if not 0.0 <= clearance < math.inf:
+        raise Refusal(f"a clearance is 0 mm or more, and finite, not {clearance}")
     visible = [root.id for root in document.solids if root.visible]
     evaluation = evaluate_document(document, tolerance, visible, progress=progress)
     bodies = [body_of(result) for result in evaluation.solids]

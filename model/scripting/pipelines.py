@@ -41,7 +41,7 @@ def pipeline_counts(
     **view: Any,
 ) -> Counts:
     """How many vertices, triangles, polygons, fragments and pixels there are at each stage; `view` as in `pipeline`.
-    With `cull` faces that are turned away are left out. Raises Refusal.
+    With `cull` faces that are turned away are left out; a `model` matrix moves all of the solids. Raises Refusal.
 
     >>> counts = pipeline_counts(box(2, centred=True), eye=(0, -10, 0), perspective=None, half_height=2, size=(40, 40))
     >>> counts.triangles, counts.pixels, counts.overdraw
@@ -50,14 +50,15 @@ def pipeline_counts(
     from ..pipeline.counts import counted, joined
     from ..pipeline.matrices import matrices_for
 
-    size = view.setdefault("size", (1200, 800))
     matrices = matrices_for(eye, target, **view)
+    width, height = view.get("size", (1200, 800))
     evaluation = evaluate(*solids, tolerance=tolerance)
     meshes = [(result, evaluation.display(result)) for result in evaluation.visible]
     for result, mesh in meshes:
         if mesh is None:
             raise Refusal(next(message.message for message in result.messages if message.error))
-    result = counted(*joined([(m.vertices, m.corners) for _, m in meshes if m is not None]), matrices, size, cull)
+    points, triangles = joined([(m.vertices, m.corners) for _, m in meshes if m is not None])
+    result = counted(matrices.stages(points).world, triangles, matrices, (round(width), round(height)), cull)
     assert result is not None
     return result.counts
 

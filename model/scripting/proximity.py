@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Node
+from ..document.resolve import Resolver
 from .documents import document_of, evaluate
 from .joining import solids_of
 
@@ -57,23 +58,34 @@ def clearances(
     solids: Document | Iterable[Node], clearance: float = 0.0, tolerance: float = 0.05
 ) -> list[dict[str, Any]]:
     """The pairs of visible solids that overlap or whose gap is below the clearance, as `solidtree check` has them.
+    Raises Refusal where a solid failed, since nothing is known of its pairs.
 
     >>> [(pair["a"], pair["gap"]) for pair in clearances([box(10).named("lid"), box(10).at(10.5)], 1)]
     [('lid', 0.5)]
     """
     from ..proximity.checking import checked
+    from ..solid.results import open_surface
 
     document = solids if isinstance(solids, Document) else document_of(*solids_of(solids))
-    return checked(document, clearance, tolerance)[0]["pairs"]
+    answer, messages = checked(document, clearance, tolerance)
+    surfaces = {root.id for root in Resolver().resolve(document).solids if open_surface(root) is not None}
+    for message in messages:
+        if message.error and message.node_id not in surfaces:
+            raise Refusal(f"“{message.name}”: {message.message}")
+    return answer["pairs"]
 
 
 def _bodies(one: Node, other: Node, tolerance: float) -> tuple[Body, Body]:
     from ..proximity.checking import body_of
 
-    first, second = (body_of(result) for result in evaluate(one, other, tolerance=tolerance).solids)
-    for body in (first, second):
+    results = evaluate(one, other, tolerance=tolerance).solids
+    if len(results) != 2:
+        raise Refusal("this is asked of two solids, and an outline is none: extrude or revolve it first")
+    first, second = (body_of(result) for result in results)
+    for body, result in zip((first, second), results, strict=True):
         if body.empty:
-            raise Refusal(f"“{body.name}” has no surface to measure from")
+            reason = next((f": {message.message}" for message in result.messages if message.error), "")
+            raise Refusal(f"“{body.name}” has no surface to measure from{reason}")
     return first, second
 
 

@@ -24,7 +24,6 @@ RIMS = {"near": SIDES, "far": SIDES + 4}
 BETWEEN = np.array([(0, 4), (1, 5), (2, 6), (3, 7)])
 AROUND = np.array([*PLANES, *BEFORE_EYE]) + np.array([[0.0, 0.0, 0.0, 1.5]] * 6 + [[0.0] * 4])
 """Planes of a larger cube: so much of what is outside is drawn in device space."""
-MOST_POLYGONS = 800
 SMOOTH = 1000
 """So many lines are drawn smoothly."""
 CROWD = 400
@@ -85,10 +84,15 @@ class FrustumPainter:
         fill.setAlpha(110)
         self._painter.setPen(QPen(QColor(self._inks.cut), 1.2))
         self._painter.setBrush(fill)
-        for polygon in flow.cut[:MOST_POLYGONS]:
-            shown = self._shown(polygon)
-            if np.isfinite(shown).all():
-                self._painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in self._view.to_widget(shown).tolist()]))
+        corners, counts = flow.cut.corners, flow.cut.counts
+        shown = self._shown(corners).reshape(-1, 3)
+        finite = np.all(np.isfinite(shown), axis=1)
+        places = self._view.to_widget(np.where(finite[:, None], shown, 0.0)).reshape(*corners.shape[:2], 2)
+        unused = np.arange(corners.shape[1]) >= counts[:, None]
+        proper = np.all(finite.reshape(unused.shape) | unused, axis=1)
+        for number in np.flatnonzero(proper).tolist():
+            polygon = places[number, : counts[number]].tolist()
+            self._painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in polygon]))
         self._painter.setBrush(Qt.BrushStyle.NoBrush)
 
     def _frustum(self, flow: Flow) -> None:

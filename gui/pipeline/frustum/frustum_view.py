@@ -37,7 +37,7 @@ class FrustumView(QWidget):
         self.setAccessibleName("The frustum from outside")
         self.setToolTip("Drag to turn, Shift+drag to shift, the wheel zooms, double click or F shows all")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.setMinimumSize(180, 150)
+        self.setMinimumSize(180, 90)
         self.flow: Flow | None = None
         self.device = False
         self._cameras = {
@@ -45,12 +45,17 @@ class FrustumView(QWidget):
             True: orbit(standard_view(Camera(parallel=True), "front"), -32.0, 22.0),
         }
         self._fitted = {False: False, True: False}
+        self._turned = {False: False, True: False}
         self._held: QPointF | None = None
 
     @property
     def camera(self) -> Camera:
         """What the view itself is seen with."""
         return self._cameras[self.device]
+
+    def forget(self) -> None:
+        """Another document comes next, of another size: it is to be seen from beside, and whole."""
+        self._fitted[False] = self._turned[False] = False
 
     def show_flow(self, flow: Flow | None) -> None:
         self.flow = flow
@@ -85,7 +90,7 @@ class FrustumView(QWidget):
             target=vector_of(target),
             parallel_scale=scale,
         )
-        self._fitted[self.device] = True
+        self._fitted[self.device], self._turned[self.device] = True, False
         self.update()
 
     def to_widget(self, points: Floats) -> Floats:
@@ -168,12 +173,12 @@ class FrustumView(QWidget):
         return super().event(event)
 
     def _turn_to(self, camera: Camera) -> None:
-        self._cameras[self.device] = camera
+        self._cameras[self.device], self._turned[self.device] = camera, True
         self.update()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         super().resizeEvent(event)
-        if not self._fitted[self.device]:
+        if not self._turned[self.device]:
             self.fit()
 
     def paintEvent(self, event: QPaintEvent) -> None:

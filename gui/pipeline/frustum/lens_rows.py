@@ -67,7 +67,7 @@ class LensRows(QWidget):
             if not tried:
                 self.sliders[name].set_range(*_range(name, lens, distance))
             self.sliders[name].set_value(value)
-            self.fields[name].set_value(float(f"{value:.6g}"))
+            self.fields[name].set_value(float(f"{value:.5g}"))
 
     def _typed(self, name: str, text: str) -> None:
         field = self.fields[name]
