@@ -196,7 +196,7 @@ class FaultsPage(QWidget):
 
     def open_repairs(self) -> None:
         """The menu of repairs, at the button."""
-        self.repair.showMenu()
+        self.repair.menu().popup(self.repair.mapToGlobal(self.repair.rect().bottomLeft()))
 
     def _type_longest(self, text: str) -> None:
         try:
