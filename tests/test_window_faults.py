@@ -11,7 +11,8 @@ from replay import replayed
 from solidtree.model.document.document import Document
 from solidtree.model.document.primitives import ImportedMesh
 from solidtree.model.document.table import same_document
-from solidtree.model.script import box, cylinder, document_of
+from solidtree.model.outline.paths import path_of
+from solidtree.model.script import box, cylinder, document_of, path
 
 pytest_plugins = ["window_driver"]
 
@@ -225,3 +226,71 @@ def test_a_change_of_the_document_is_checked_while_the_panel_is_looked_at(dirty)
     dirty.keys("Ctrl+Z", dirty.window.viewport)
     settled(dirty)
     assert listed(dirty)["sliver"] == 1
+
+
+def test_one_hole_is_closed_by_itself(dirty):
+    table, menu = dirty.window.faults.page.table, dirty.window.faults.page.repair.menu()
+    next(action for action in menu.actions() if action.text() == "Turn faces").trigger()
+    settled(dirty)
+    before = dirty.document
+    number = next(k for k, row in enumerate(table.findings.rows) if row.is_hole and row.place[2] < SIDE / 2)
+    click(dirty, number)
+    next(action for action in menu.actions() if action.text() == "Close this hole" and action.isVisible()).trigger()
+    settled(dirty)
+    assert listed(dirty) == {"border": 1, "near vertices": 1, "sliver": 1}
+    assert "the hole is closed" in dirty.window.faults.page.report.words.text()
+    assert dirty.session.log[-1].startswith("close_mesh_holes(")
+    assert same_document(replayed(dirty.session.log, Document()), dirty.document)
+    dirty.keys("Ctrl+Z", dirty.window.viewport)
+    assert dirty.document is before
+
+
+def test_a_drawing_is_welded_and_cut(make_window):
+    loose = path("M 0 0 L 20 0 L 20 20 L 0 20 L 0 0.0004").named("frame")
+    hatch = path("M 40 1 L 50 1 M 40 9 L 50 9 M 41 0 L 41 10 M 49 0 L 49 10").named("hatch")
+    driver = make_window(document_of(loose, hatch))
+    driver.keys("Ctrl+Alt+F", driver.window.viewport)
+    settled(driver)
+    page, before = driver.window.faults.page, driver.document
+    assert listed(driver) == {"crossing": 4, "near ends": 1, "open end": 10}
+    crossing = next(k for k, row in enumerate(page.table.findings.rows) if row.finding.kind == "crossing")
+    click(driver, crossing)
+    viewer = driver.window.viewport.viewer
+    driver.qtbot.waitUntil(lambda: np.allclose(viewer.camera.target, page.table.current.place, atol=1e-6))
+    assert np.allclose(np.sort(np.abs(page.table.current.place[:2] - (45, 5))), 4)
+    next(action for action in page.repair.menu().actions() if action.text() == "Cut lines and weld").trigger()
+    settled(driver)
+    assert "crossing" not in listed(driver) and "lines cut where they cross" in page.report.words.text()
+    assert sum(contour.closed for contour in path_of(driver.document.profiles[1]).contours) == 1
+    driver.window.faults.leave()
+    driver.window.actions_.run("repair_faults")
+    settled(driver)
+    assert "near ends" not in listed(driver) and path_of(driver.document.profiles[0]).contours[0].closed
+    assert same_document(replayed(driver.session.log, before), driver.document)
+    driver.keys("Ctrl+Z", driver.window.viewport)
+    driver.keys("Ctrl+Z", driver.window.viewport)
+    assert driver.document is before
+
+
+def test_a_fault_in_the_picture_and_the_tools_give_way_to_each_other(dirty):
+    window = dirty.window
+    faults, handles = window.faults, window.handles
+    click(dirty, 0)
+    assert faults.picture.chosen is not None and handles.hidden
+    window.actions_.run("measure")
+    assert faults.picture.chosen is None and handles.hidden
+    window.show_faults()  # the measurements have come before it
+    dirty.qtbot.waitUntil(lambda: faults.in_front)
+    click(dirty, 1)
+    assert not window.measure.active and faults.picture.chosen is not None and handles.hidden
+    window.docks["Mesh"].show()
+    window.docks["Mesh"].raise_()
+    dirty.qtbot.waitUntil(lambda: window.mesh.inspector is not None)
+    tool = window.mesh.inspector.tool
+    tool.start("edge")
+    dirty.qtbot.waitUntil(lambda: faults.picture.chosen is None)
+    assert tool.active and handles.hidden
+    click(dirty, 0)
+    assert not tool.active and faults.picture.chosen is not None and handles.hidden
+    dirty.keys("Escape", faults.page.table)
+    assert not handles.hidden

@@ -69,6 +69,11 @@ class FindingRow:
         """Whether it is a gap and has no other size."""
         return self.finding.kind.startswith("near")
 
+    @property
+    def is_hole(self) -> bool:
+        """Whether it is a border of a mesh, which can be closed by itself."""
+        return self.report.kind == "mesh" and self.finding.kind == "border"
+
     def like(self, other: FindingRow) -> bool:
         """Whether it is the same finding in a later report."""
         same = self.report.id == other.report.id and self.kind == other.kind
