@@ -164,7 +164,34 @@ def _faults(window: MainWindow) -> None:
         window.show_faults()
         window.status.say(words)
 
+    def made() -> None:
+        """The clicks and the handles' place are the other tools': a fault in the picture and they give way in turn."""
+        picture, mesh = panel.picture, window.mesh
+        assert picture is not None
+        tools = (window.measure, window.sight, window.draw, window.face_plane, window.engrave, window.pipeline.tool)
+
+        def begin() -> None:
+            for other in (*tools, window.mapping_tool, *((mesh.inspector.tool,) if mesh.inspector else ())):
+                other.end()
+            window.handles.set_hidden(True)  # the ends of the others have shown them
+
+        def give_way() -> None:
+            panel.leave()
+            window.handles.set_hidden(True)
+
+        def pair() -> None:
+            if mesh.inspector is not None:
+                mesh.inspector.tool.began.connect(give_way)
+
+        picture.began.connect(begin)
+        picture.ended.connect(lambda: window.handles.set_hidden(False))
+        for other in (*tools, window.mapping_tool):
+            other.began.connect(give_way)
+        pair()
+        mesh.made.connect(pair)
+
     panel.dirty.connect(show)
+    panel.made.connect(made)
 
 
 def _drawing(window: MainWindow) -> None:

@@ -28,9 +28,9 @@ def is_sound(report: NodeFaults) -> bool:
     return report.faults is not None and report.faults.sound
 
 
-def is_mesh(report: NodeFaults) -> bool:
-    """Whether it is a mesh that repairs can be done to; other solids have to be made one first."""
-    return report.kind == "mesh"
+def is_mendable(report: NodeFaults) -> bool:
+    """Whether it is a mesh or an outline with faults; other solids have to be made a mesh first."""
+    return report.kind != "solid" and report.faults is not None and not report.faults.sound
 
 
 def counts_by_kind(reports: Sequence[NodeFaults]) -> dict[Kind, tuple[KindWords, int]]:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QMenu, QTableView,
 
 from .finding_rows import GAP, KIND, PLACE, SIZE, SOLID, TITLES, FindingModel, FindingRow
 
-WIDTHS = {SOLID: 100, SIZE: 92, GAP: 84, PLACE: 150}
+WIDTHS = {SOLID: 100, SIZE: 86, GAP: 86, PLACE: 170}
 
 
 class FindingTable(QTableView):
@@ -20,6 +20,8 @@ class FindingTable(QTableView):
     chosen = Signal(object)
     zoomed = Signal(object)
     repair_asked = Signal(object)
+    hole_asked = Signal(object)
+    """The border of a row is to be closed."""
     left = Signal()
     """Escape was pressed."""
 
@@ -98,6 +100,8 @@ class FindingTable(QTableView):
         if row is not None:
             menu.addAction("Zoom to it\tEnter", lambda: self.zoomed.emit(row))
             menu.addAction(f"Repair “{row.report.name}”\tF", lambda: self.repair_asked.emit(row))
+            if row.is_hole:
+                menu.addAction("Close this hole", lambda: self.hole_asked.emit(row))
             menu.addAction("Copy this row", lambda: QGuiApplication.clipboard().setText("\t".join(row.texts())))
             menu.addSeparator()
         menu.addAction("Copy as text", self.copy)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
@@ -21,7 +21,8 @@ from PySide6.QtWidgets import (
 )
 
 from ...model.document.errors import Refusal
-from ...model.mesh.faults.repair import REPAIRS
+from ...model.mesh.faults.words import REPAIRS
+from ...model.operations.curves.mending import REPAIRS as OUTLINE_REPAIRS
 from ..icons import icon
 from ..panels.number_field import NumberField, Steps
 from ..panels.property_edit import sentence
@@ -38,6 +39,7 @@ TITLES = {
     "weld": "Weld", "duplicates": "Drop duplicates", "slivers": "Drop slivers", "orient": "Turn faces",
     "holes": "Close holes",
 }  # fmt: skip
+CUT = ("cut", "weld")
 ALL = tuple(REPAIRS)
 TOLERANCE_TIP = "How near things may be without being joined, and how high a face must be to be no sliver, in mm"
 LONGEST_TIP = "The longest border that is closed, in mm; empty: any"
@@ -49,13 +51,15 @@ NOTHING = "There is nothing visible to check. Import a mesh or a drawing (Ctrl+S
 
 
 class FaultsPage(QWidget):
-    """What it shows and does is the desk's. `repair_asked` carries names of repairs."""
+    """What it shows and does is the panel's. `repair_asked` carries names of repairs."""
 
     check_asked = Signal()
     cancel_asked = Signal()
     tolerance_typed = Signal(str)
     tolerance_stepped = Signal(float)
     repair_asked = Signal(tuple)
+    hole_asked = Signal()
+    """The border that is chosen is to be closed."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -188,15 +192,21 @@ class FaultsPage(QWidget):
         self.progress.setRange(0, total)
         self.progress.setValue(done)
 
-    def set_repairable(self, whose: str, why_not: str = "") -> None:
-        """Whose faults a repair would mend, in words; or why none can be."""
+    def set_repairable(self, whose: str, why_not: str = "", kinds: Collection[str] = (), hole: bool = False) -> None:
+        """Whose faults a repair would mend, in words; or why none can be. `kinds` are those of the reports that are
+        meant, `hole` whether a border is chosen."""
         self.repair.setEnabled(not why_not)
         self.repair.setToolTip(f"Not now: {why_not}" if why_not else f"Repairs of {whose}")
         self._whose.setText(f"Repair {whose}")
+        self._hole.setVisible(hole)
+        for name, action in self._single.items():
+            action.setVisible("mesh" in kinds or name == "weld")
+        self._cut.setVisible("outline" in kinds)
+        self._up_to.setVisible("mesh" in kinds)
 
     def open_repairs(self) -> None:
         """The menu of repairs, at the button."""
-        self.repair.showMenu()
+        self.repair.menu().popup(self.repair.mapToGlobal(self.repair.rect().bottomLeft()))
 
     def _type_longest(self, text: str) -> None:
         try:
@@ -216,10 +226,16 @@ class FaultsPage(QWidget):
         menu = QMenu(self)
         menu.setToolTipsVisible(True)
         self._whose = menu.addAction("Repair", lambda: self.repair_asked.emit(ALL))
-        self._whose.setToolTip("All of these, one after the other")
+        self._whose.setToolTip("Meshes: all of these, one after the other; drawings are welded")
+        self._hole = menu.addAction("Close this hole", self.hole_asked.emit)
+        self._hole.setToolTip("Fill the chosen border alone")
         menu.addSeparator()
-        for name, tip in REPAIRS.items():
-            menu.addAction(TITLES[name], lambda name=name: self.repair_asked.emit((name,))).setToolTip(tip)
+        self._single = {name: menu.addAction(TITLES[name]) for name in REPAIRS}
+        for name, action in self._single.items():
+            action.setToolTip(REPAIRS[name])
+            action.triggered.connect(lambda _=False, name=name: self.repair_asked.emit((name,)))
+        self._cut = menu.addAction("Cut lines and weld", lambda: self.repair_asked.emit(CUT))
+        self._cut.setToolTip(f"{OUTLINE_REPAIRS['cut']}; then they are welded")
         menu.addSeparator()
         room = QWidget(menu)
         line = QHBoxLayout(room)
@@ -232,9 +248,9 @@ class FaultsPage(QWidget):
         self.longest.setToolTip(LONGEST_TIP)
         line.addWidget(self.longest)
         line.addWidget(QLabel("mm", room))
-        entry = QWidgetAction(menu)
-        entry.setDefaultWidget(room)
-        menu.addAction(entry)
+        self._up_to = QWidgetAction(menu)
+        self._up_to.setDefaultWidget(room)
+        menu.addAction(self._up_to)
         return menu
 
     def _copy_menu(self) -> QMenu:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Signal
@@ -9,7 +10,7 @@ from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from ...model.document.errors import Refusal
 from ..panels.property_edit import sentence
-from .checked import is_mesh, is_sound
+from .checked import is_mendable
 from .checks import Checks, millimetres_from
 from .repairing import Asked, Mended, Repairing
 
@@ -31,6 +32,8 @@ class FaultsPanel(QWidget):
     dirty = Signal(str)
     listed = Signal()
     """What can be repaired may have changed."""
+    made = Signal()
+    """The page and the picture are there, looked at for the first time."""
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
@@ -99,14 +102,14 @@ class FaultsPanel(QWidget):
         page.tolerance_typed.connect(self._type_tolerance)
         page.tolerance_stepped.connect(self._set_tolerance)
         page.repair_asked.connect(self.repair)
+        page.hole_asked.connect(lambda: self._close_hole(page.table.current))
+        page.table.hole_asked.connect(self._close_hole)
         page.report.linked.connect(self._link)
         page.table.chosen.connect(self._choose)
         page.table.zoomed.connect(self._zoom)
-        page.table.repair_asked.connect(lambda row: page.open_repairs())
-        page.table.left.connect(self._leave)
-        self.picture.left.connect(self._leave)
-        self.picture.began.connect(lambda: self._window.handles.set_hidden(True))
-        self.picture.ended.connect(lambda: self._window.handles.set_hidden(False))
+        page.table.repair_asked.connect(self._open_repairs)
+        page.table.left.connect(self.leave)
+        self.picture.left.connect(self.leave)
         self.checks.changed.connect(self._fill)
         self.checks.working.connect(page.show_work)
         self.repairing.working.connect(page.show_work)
@@ -114,6 +117,7 @@ class FaultsPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(page)
+        self.made.emit()
 
     def _fill(self) -> None:
         """Show the reports."""
@@ -145,15 +149,16 @@ class FaultsPanel(QWidget):
         if row is not None and fly:
             picture.fly()
         whose, why_not = self._targets(row)
-        page.set_repairable(whose, why_not)
+        kinds = {report.kind for report in self._mendable(row)}
+        page.set_repairable(whose, why_not, kinds, row is not None and row.is_hole)
 
     def _zoom(self, row: FindingRow | None) -> None:
         if self.picture is not None and row is not None:
             self._choose(row, fly=False)
             self.picture.fly(close=True)
 
-    def _leave(self) -> None:
-        """Take the marks away."""
+    def leave(self) -> None:
+        """Choose no finding, and take its marks away."""
         if self.page is not None and self.picture is not None:
             self.page.table.leave()
             self.picture.show(())
@@ -192,7 +197,7 @@ class FaultsPanel(QWidget):
 
     def _mendable(self, row: FindingRow | None) -> list[NodeFaults]:
         reports = self.checks.reports if row is None else (row.report,)
-        return [report for report in reports if report.faults is not None and is_mesh(report) and not is_sound(report)]
+        return [report for report in reports if is_mendable(report)]
 
     @property
     def repairable(self) -> bool:
@@ -203,14 +208,25 @@ class FaultsPanel(QWidget):
         """Do all repairs to all that is listed."""
         from .page import ALL
 
-        self._repair([Asked(report.id, report.name) for report in self._mendable(None)], ALL)
+        self._repair(_asked(self._mendable(None)), ALL)
 
     def repair(self, repairs: tuple[str, ...]) -> None:
-        """Repair what has the chosen finding, or all; see model/mesh/faults/repair.py for the names."""
-        if self.page is None:
-            return
-        asked = [Asked(report.id, report.name) for report in self._mendable(self.page.table.current)]
-        self._repair(asked, repairs)
+        """Repair what has the chosen finding, or all; see REPAIRS of meshes and of outlines for the names."""
+        if self.page is not None:
+            kinds = {"outline"} if "cut" in repairs else {"mesh", "outline"} if "weld" in repairs else {"mesh"}
+            reports = self._mendable(self.page.table.current)
+            self._repair(_asked(report for report in reports if report.kind in kinds), repairs)
+
+    def _open_repairs(self, row: FindingRow) -> None:
+        _, why_not = self._targets(row)
+        if why_not:
+            self.refused.emit(sentence(why_not))
+        elif self.page is not None:
+            self.page.open_repairs()
+
+    def _close_hole(self, row: FindingRow | None) -> None:
+        if row is not None and row.is_hole:
+            self._repair([Asked(row.report.id, row.report.name, hole=int(row.finding.vertices[0]))], ("holes",))
 
     def _repair(self, asked: list[Asked], repairs: tuple[str, ...]) -> None:
         if self.page is not None:
@@ -242,3 +258,7 @@ class FaultsPanel(QWidget):
 
             name = next((report.name for report in self.checks.reports if report.id == node_id), "")
             self._repair([Asked(node_id, name, convert=True)], ALL)
+
+
+def _asked(reports: Iterable[NodeFaults]) -> list[Asked]:
+    return [Asked(report.id, report.name, flat=report.kind == "outline") for report in reports]

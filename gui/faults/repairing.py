@@ -16,28 +16,34 @@ from ..panels.property_edit import sentence
 from ..status import figure
 
 if TYPE_CHECKING:
-    from ...model.mesh.faults.repair import Repaired
+    from ...model.mesh.faults.drawings import DrawingFaults
+    from ...model.mesh.faults.report import MeshFaults
     from ..window import MainWindow
+
+Counts = tuple[tuple[str, str, str, bool], ...]
+"""Rows (label, before, now, whether that is worse)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Mended:
-    """What a repair did to one solid or outline: `counts` are rows (label, before, now, whether that is worse)."""
+    """What a repair did to one solid or outline."""
 
     name: str
     words: tuple[str, ...]
     worse: tuple[str, ...]
-    counts: tuple[tuple[str, str, str, bool], ...]
+    counts: Counts
 
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A repair that is wanted: of what, by its root's id; `flat` for an outline, `convert` for what is no mesh yet."""
+    """A repair that is wanted: of what, by its id; `flat` for an outline, `convert` for what is no mesh yet; `hole` is
+    a vertex of the only border that is to be closed."""
 
     node_id: str
     name: str
     flat: bool = False
     convert: bool = False
+    hole: int | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,7 +101,8 @@ class Repairing(QObject):
                 return
             if result.document is not before:
                 names = "s" if len(asked) > 1 else f" {asked[0].name}"
-                session.commit(f"Repair{names}", result.document, line="\n".join(result.lines))
+                what = "Close hole of" if asked[0].hole is not None else "Repair"
+                session.commit(f"{what}{names}", result.document, line="\n".join(result.lines))
             self.done.emit(result.mended)
 
         def refuse(refusal: Refusal) -> None:
@@ -126,6 +133,8 @@ def _repair(
     told: Callable[[str, float], None],
 ) -> _Result:
     """Repair one after the other; the lines do it again. Raises Refusal."""
+    from ...model.checking.document_faults import document_faults
+    from ...model.operations.curves.mending import REPAIRS as OF_LINES
     from ...model.operations.meshes.mending import repair_of
 
     lines: list[str] = []
@@ -142,6 +151,25 @@ def _repair(
         def part(label: str, share: float, number: int = number) -> None:
             told(label, (number + share) / len(asked))
 
+        if one.flat or one.hole is not None:
+            begun = document
+            part(f"repairing {one.name}", 0.0)
+            try:
+                if one.hole is not None:
+                    do("close_mesh_holes", one.node_id, [one.hole])
+                else:
+                    do("repair_outline", one.node_id, [name for name in OF_LINES if name in repairs], tolerance)
+            except Refusal as refusal:
+                if len(asked) == 1:
+                    raise
+                mended.append(Mended(one.name, (), (f"not repaired, {refusal}",), ()))
+                continue
+            before, after = (document_faults(it, tolerance, [one.node_id])[0].faults for it in (begun, document))
+            if before is None or after is None:
+                continue
+            did = "the hole is closed" if one.hole is not None else _lines_words(repairs)
+            mended.append(Mended(one.name, (did,) if document is not begun else (), *compared(before, after)))
+            continue
         keywords = {} if longest is None else {"longest": longest}
         if one.convert:
             part(f"making a mesh of {one.name}", 0.0)
@@ -149,20 +177,31 @@ def _repair(
         result = repair_of(document, one.node_id, repairs, tolerance, longest, part)
         do("repair_mesh", one.node_id, list(repairs), tolerance, **keywords)
         words = ("made a mesh", *result.words) if one.convert else result.words
-        mended.append(Mended(one.name, words, result.worse, counts_of(result)))
+        mended.append(Mended(one.name, words, *compared(result.before, result.after)))
     return _Result(document, tuple(lines), tuple(mended))
 
 
-def counts_of(result: Repaired) -> tuple[tuple[str, str, str, bool], ...]:
-    """The counts of faults that there were before or are now, and the volume: (label, before, now, whether worse)."""
-    from ...model.mesh.faults.repair import NAMES
-    from ...model.mesh.faults.report import FAULTS
+def _lines_words(repairs: Sequence[str]) -> str:
+    joined = "curves joined where their ends met"
+    return f"lines cut where they cross, {joined}" if "cut" in repairs else joined
 
-    before, after = result.before, result.after
-    found = []
-    for name in FAULTS:
+
+def compared(before: MeshFaults | DrawingFaults, after: MeshFaults | DrawingFaults) -> tuple[tuple[str, ...], Counts]:
+    """What is worse in a later report, and the counts of faults that there were before or are now; of meshes the volume
+    too."""
+    from ...model.mesh.faults.repair import NAMES, worsened
+    from ...model.mesh.faults.report import FAULTS, MeshFaults
+    from ...model.mesh.faults.words import DRAWING_KINDS
+
+    flat = {words.count: words.several for words in DRAWING_KINDS.values()}
+    names = {name: NAMES[name] for name in FAULTS} if isinstance(before, MeshFaults) else flat
+    found: list[tuple[str, str, str, bool]] = []
+    for name, label in names.items():
         one, two = int(getattr(before, name)), int(getattr(after, name))
         if one or two:
-            found.append((sentence(NAMES[name]), f"{one:,}", f"{two:,}", two > one))
+            found.append((sentence(label), f"{one:,}", f"{two:,}", two > one))
+    if not (isinstance(before, MeshFaults) and isinstance(after, MeshFaults)):
+        return tuple(f"{label}: {one} before, {two} now" for label, one, two, worse in found if worse), tuple(found)
     one, two = (None if faults.volume is None else f"{figure(faults.volume)} mm³" for faults in (before, after))
-    return (*found, ("Volume", one or "not closed", two or "not closed", bool(one and not two)))
+    found.append(("Volume", one or "not closed", two or "not closed", bool(one and not two)))
+    return worsened(before, after), tuple(found)

@@ -56,7 +56,8 @@ def close_mesh_holes(document: Document, node_id: str, vertices: Iterable[int]) 
     rows = numbers_of(vertices, len(mesh.vertices), "vertex", label)
     points, faces, said = close_holes(mesh.vertices, mesh.triangles, at=rows)
     if len(faces) == len(mesh.triangles):
-        raise Refusal(f"“{label}”: {said or 'no border that could be filled passes there'}")
+        why = said or "no border that could be filled passes there; where it runs past turned faces, turn those first"
+        raise Refusal(f"“{label}”: {why}")
     return with_mesh(document, node_id, points, faces)
 
 
