@@ -29,7 +29,7 @@ Arrays = tuple["NDArray[np.float64]", "NDArray[np.integer]"]
 
 
 class FaultPicture(Tool):
-    """`left` tells that Escape was pressed in the picture while a fault was shown there; `began` and `ended` that one is
+    """`left` tells that Escape was pressed in the picture while a fault was shown; `began` and `ended` that one is
     shown, and that none is any more."""
 
     left = Signal()

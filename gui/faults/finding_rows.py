@@ -24,13 +24,13 @@ if TYPE_CHECKING:
     from ...model.mesh.faults.words import KindWords
 
 SOLID, KIND, SIZE, GAP, PLACE = range(5)
-TITLES = ("Solid", "Fault", "Size", "Gap", "Place")
+TITLES = ("Solid", "Fault", "Size, mm", "Gap, mm", "Place, mm")
 TIPS = (
     "What it was found in",
     "What is wrong, the worst first",
-    "Of what is there, in mm: a border, an edge, a face, or what faces share",
-    "How near things are, or how high a sliver is, in mm",
-    "In the world, in mm",
+    "Of what is there: a border, an edge, a face, or what faces share",
+    "How near things are, or how high a sliver is",
+    "In the world: x, y, z",
 )
 Index = QModelIndex | QPersistentModelIndex
 
@@ -61,8 +61,13 @@ class FindingRow:
     def words(self) -> str:
         """What it is and how large, for the picture."""
         size, gap = self.finding.size, self.finding.gap
-        told = f"{length(gap)} apart" if self.finding.kind.startswith("near") else length(size)
+        told = f"{length(gap)} mm apart" if self.near else f"{length(size)} mm"
         return f"{self.title}, {told}".replace("\u202f", " ") if size or gap else self.title
+
+    @property
+    def near(self) -> bool:
+        """Whether it is a gap and has no other size."""
+        return self.finding.kind.startswith("near")
 
     def like(self, other: FindingRow) -> bool:
         """Whether it is the same finding in a later report."""
@@ -73,14 +78,14 @@ class FindingRow:
         """What stands in its columns."""
         finding = self.finding
         gap = length(finding.gap) if finding.gap else ""
-        place = ", ".join(figure(value, 6).replace("-", "\u2212") for value in self.place.tolist())
-        size = length(finding.size) if finding.size else ""
+        place = ", ".join(figure(value, 5).replace("-", "\u2212") for value in self.place.tolist())
+        size = length(finding.size) if finding.size and not self.near else ""
         return self.report.name, self.title, size, gap, place
 
 
 def length(value: float) -> str:
-    """With its unit; of what is tiny two digits."""
-    return f"{figure(value, 5) if value >= 0.1 else f'{value:.2g}'} mm"
+    """As people read it; of what is tiny two digits."""
+    return figure(value, 5) if value >= 0.1 else f"{value:.2g}"
 
 
 def rows_of(reports: Sequence[NodeFaults]) -> list[FindingRow]:

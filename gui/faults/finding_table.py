@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QMenu, QTableView,
 
 from .finding_rows import GAP, KIND, PLACE, SIZE, SOLID, TITLES, FindingModel, FindingRow
 
-WIDTHS = {SOLID: 100, SIZE: 92, GAP: 84, PLACE: 150}
+WIDTHS = {SOLID: 100, SIZE: 86, GAP: 86, PLACE: 170}
 
 
 class FindingTable(QTableView):

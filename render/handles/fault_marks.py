@@ -23,6 +23,7 @@ INKS = ("#cc1464", "#ff6ba6")
 SPOT, LINE, RING, LEADER = 5.0, 3.0, 2.2, 1.6  # logical pixels: breadths
 ROOM, LARGEST = 9.0, 16.0  # pixels from what is ringed to the ring; half of the largest thing that is
 AWAY = (34.0, 30.0)  # pixels from the ring to the words, across and up
+LETTER = 6.4  # pixels that a letter is wide, nearly
 FILL = 0.35  # opacity of faces
 
 
@@ -119,7 +120,7 @@ class FaultMarks:
             turn = np.linspace(0.0, 2.0 * np.pi, 41)
             rim = middle + radius * np.column_stack((np.cos(turn), np.sin(turn)))
             pen.polyline(np.array([on_target_plane(camera, x, y, size) for x, y in rim]), RING, ink, ground)
-        right = -1.0 if middle[0] > 0.7 * size[0] else 1.0
+        right = -1.0 if middle[0] > 0.6 * size[0] else 1.0
         up = 1.0 if middle[1] < 0.2 * size[1] else -1.0
         way = np.array([right, up]) / np.sqrt(2.0)
         begin = middle + radius * way
@@ -128,7 +129,8 @@ class FaultMarks:
         if not radius:
             pen.dot(on_target_plane(camera, *middle, size), 1.5 * RING, ink, ground)
         pen.fill(self._drawn)
-        self._labels.show([(end + np.array([0.0, up * 8.0]), chosen.words, ink_of(self._look))], ground, size, scale)
+        words = end + np.array([right * LETTER * len(chosen.words) / 2.0, 0.0])
+        self._labels.show([(words, chosen.words, ink_of(self._look))], ground, size, scale)
 
     @property
     def _ink(self) -> Colour:
