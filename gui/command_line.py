@@ -199,6 +199,8 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
         ("ray", "ray", "add_options", "ray", "the first face on a ray, or whether two points see each other, as JSON"),
         ("section", "section", "add_options", "section",
          "the outlines in which a plane cuts the solids, as SVG or DXF"),
+        ("faults", "faults", "add_options", "faults",
+         "what is wrong with meshes, solids and outlines, as JSON; --repair writes them mended"),
         ("bsp", "bsp", "add_options", "bsp", "the BSP tree that hidden surfaces are sorted by: its figures as JSON"),
         ("diagram", "diagram", "add_options", "diagram", "the CSG diagram of the tree as SVG"),
         ("font", "font", "add_options", "font", "a font's facts, a glyph, or a text as outlines, as JSON"),

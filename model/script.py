@@ -11,9 +11,10 @@ from __future__ import annotations
 
 from .document.document import Document
 from .document.errors import Refusal
-from .scripting import documents, fonts, hidden_surfaces, joining, letters, shapes, sight, surfaces
+from .scripting import documents, faults, fonts, hidden_surfaces, joining, letters, shapes, sight, surfaces
 from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
+from .scripting.faults import *  # noqa: F403
 from .scripting.fonts import *  # noqa: F403
 from .scripting.hidden_surfaces import *  # noqa: F403
 from .scripting.joining import *  # noqa: F403
@@ -29,6 +30,7 @@ __all__ += flat.__all__
 __all__ += letters.__all__
 __all__ += joining.__all__
 __all__ += documents.__all__
+__all__ += faults.__all__
 __all__ += fonts.__all__
 __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__

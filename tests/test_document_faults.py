@@ -3,10 +3,14 @@
 import numpy as np
 import pytest
 from lane_listener import Listener
+from PySide6.QtCore import QObject
 
+from solidtree.gui.jobs import Jobs
 from solidtree.model.checking.document_faults import document_faults
 from solidtree.model.operations.operations import OPERATIONS
+from solidtree.model.project.assets import default_store
 from solidtree.model.script import Refusal, box, cylinder, document_of, path, polyhedron
+from solidtree.model.worker.lane import Lane
 from solidtree.model.worker.messages import FaultsFound, Progress
 
 OPEN_BOX = polyhedron(
@@ -63,6 +67,21 @@ def test_the_worker_finds_them_and_can_be_stopped(listener):
     assert [str(found) for found in answer.found] == [str(found) for found in document_faults(document)]
     refused = listener.wait_for(FaultsFound, request=listener.lane.find_faults(document, ("n99",), 0.001))
     assert refused.found is None and "n99" in refused.fault
+
+
+def test_the_window_is_told_of_them(qtbot):
+    parent = QObject()
+    jobs = Jobs(lambda tell: Lane(tell, default_store().folder), parent)
+    try:
+        with qtbot.waitSignal(jobs.faults_found, timeout=60_000) as told:
+            jobs.find_faults(document_of(a=OPEN_BOX), (), 0.001)
+        assert [found.name for found in told.args[0]] == ["a"] and told.args[1] == "" and not jobs.finding
+        with qtbot.waitSignal(jobs.faults_found) as told:
+            jobs.find_faults(document_of(a=OPEN_BOX), (), 0.001)
+            jobs.cancel()
+        assert told.args == [None, "it was cancelled"]
+    finally:
+        jobs.close()
 
 
 def test_looking_ends_when_it_is_no_longer_wanted(listener):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -33,8 +33,9 @@ FINEST = 1e-4
 class NodeFaults:
     """What is wrong with a node: `kind` is "mesh" (as it came, before it becomes a solid), "solid" or "outline".
 
-    `matrix` (3, 4) maps the findings' places to the world: those of outlines are in the outline's own plane. Where
-    `faults` is None, `message` says why there is no report.
+    Vertices of a mesh's findings are numbered as in `mesh_of_node`. `matrix` (3, 4) maps the findings' places to the
+    world: those of outlines are in the outline's own plane. Where `faults` is None, `message` says why there is no
+    report.
     """
 
     id: str
@@ -144,6 +145,7 @@ def _of_outline(place: Place, tolerance: float, told: Progress | None) -> NodeFa
         if any(contour.dimension == 3 for contour in path.contours):
             return _none(place, "outline", "it leaves its plane: only what is flat is looked at")
         found = find_drawing_faults(segments_of(path, tolerance), tolerance, told)
+        found = replace(found, segments=sum(len(contour) for contour in path.contours))  # the user's, not the chords
         return NodeFaults(place.node.id, place.node.label, "outline", found, place.matrix)
     except Refusal as refusal:
         return _none(place, "outline", str(refusal))

@@ -31,6 +31,7 @@ from .curves.control_points import delete_points, insert_point, move_points, pla
 from .curves.conversion import convert_to_bspline, convert_to_path
 from .curves.joints import harmonise_joints, match_curvature, smooth_joints
 from .curves.knots import elevate_degree, insert_knot, reduce_degree, refine_knots, remove_knot, set_knot
+from .curves.mending import repair_outline
 from .curves.node_places import align_nodes, distribute_nodes, mirror_outline
 from .curves.nodes import (
     delete_nodes,
@@ -55,7 +56,7 @@ from .meshes.editing import (
     split_mesh_edge,
     split_mesh_face,
 )  # fmt: skip
-from .meshes.mending import repair_mesh
+from .meshes.mending import close_mesh_holes, repair_mesh
 from .meshes.mesh_nodes import convert_to_mesh
 from .outlining import make_solid, make_stencils, set_text_on_path
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
@@ -191,9 +192,9 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         add_material, set_material, rename_material, delete_material, use_material, set_mapping,
         add_light, set_light, rename_light, delete_light, set_shading,
         engrave, carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
-        convert_to_mesh, repair_mesh, split_mesh_edge, flip_mesh_edge, collapse_mesh_edge, split_mesh_face,
-        delete_mesh_faces, reverse_mesh_faces, move_mesh_vertices,
-        bend_segment,
+        convert_to_mesh, repair_mesh, close_mesh_holes, split_mesh_edge, flip_mesh_edge, collapse_mesh_edge,
+        split_mesh_face, delete_mesh_faces, reverse_mesh_faces, move_mesh_vertices,
+        bend_segment, repair_outline,
         combine_outlines, offset_outline, stroke_outline,
         convert_to_path, convert_to_bspline, move_nodes, place_nodes, move_handle, set_handle, set_joints, insert_node,
         delete_nodes, transform_nodes, align_nodes, distribute_nodes, mirror_outline, smooth_joints, harmonise_joints,

@@ -1,4 +1,4 @@
-"""Which of many boxes meet: a hierarchy of boxes walked in pairs, whole batches at a time."""
+"""Which of many edges or triangles come near each other: a hierarchy of boxes walked in pairs, in whole batches."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ Numbers = NDArray[np.int64]
 
 BATCH = 1 << 18
 BITS = 10  # of each coordinate in a Morton number
+RUNNING = 4.0
+"""How many times as much as across it edges run in a direction that boxes are turned to."""
 
 
 def meeting(
@@ -47,6 +49,30 @@ def meeting(
             done += 0.0 if len(one) else share
         if told:
             told(min(done, 1.0))
+
+
+def near_segments(
+    a: Floats, b: Floats, margin: float, told: Callable[[float], None] | None = None
+) -> Iterator[tuple[Numbers, Numbers]]:
+    """Pairs of segments a b (n, 3) whose boxes, larger by `margin` on all sides, meet, in batches."""
+    axes = _axes(b - a)
+    one, two = a @ axes, b @ axes
+    yield from meeting(np.minimum(one, two) - margin, np.maximum(one, two) + margin, told)
+
+
+def near_triangles(
+    corners: Floats, margin: float, told: Callable[[float], None] | None = None
+) -> Iterator[tuple[Numbers, Numbers]]:
+    """The same of triangles (n, 3, 3)."""
+    turned = corners @ _axes((np.roll(corners, -1, axis=1) - corners).reshape(-1, 3))
+    yield from meeting(turned.min(axis=1) - margin, turned.max(axis=1) + margin, told)
+
+
+def _axes(ways: Floats) -> Floats:
+    """(3, 3) columns that boxes lie along: where most of the length runs one way, that way is one of them, since long
+    edges side by side would all meet in boxes that lie askew to them."""
+    spread, axes = np.linalg.eigh(ways.T @ ways)
+    return axes if spread[2] > RUNNING * spread[1] else np.eye(3)
 
 
 def _opened(level: tuple[Floats, Floats], one: Numbers, two: Numbers) -> tuple[Numbers, Numbers]:

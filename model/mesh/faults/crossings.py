@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .box_pairs import meeting
+from .box_pairs import near_triangles
 from .sides import Flags, Floats, Numbers, distinct_places, normals_of
 
 SAME_PLANE = 1e-11
@@ -41,7 +41,7 @@ def crossings(vertices: Floats, triangles: Numbers, told: Callable[[float], None
     pairs: list[Numbers] = [np.zeros((0, 2), np.int64)]
     places: list[Floats] = [np.zeros((0, 3))]
     sizes: list[Floats] = [np.zeros(0)]
-    for one, two in meeting(corners[rows].min(axis=1), corners[rows].max(axis=1), told) if len(rows) else ():
+    for one, two in near_triangles(corners[rows], SAME_PLANE * size, told):
         one, two = rows[one], rows[two]
         shared = np.zeros(len(one), np.int64)
         for i in range(3):

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from ...document.errors import Refusal
 from .nearness import Near, near_edges, near_vertices
-from .report import Finding, Progress, told
+from .report import FARTHEST, Finding, Progress, told
 from .sides import Floats, Numbers, Sides, distinct_places
 from .welding import joined
 from .words import DRAWING_KINDS, many
@@ -181,6 +181,9 @@ def _lines(segments: ArrayLike, tolerance: float) -> Floats:
     if not np.isfinite(lines).all():
         bad = int(np.flatnonzero(~np.isfinite(lines).all(axis=(1, 2)))[0])
         raise Refusal(f"segment {bad + 1:,} has a coordinate that is no finite number")
+    if (np.abs(lines) > FARTHEST).any():
+        bad = int(np.flatnonzero((np.abs(lines) > FARTHEST).any(axis=(1, 2)))[0])
+        raise Refusal(f"segment {bad + 1:,} lies more than {FARTHEST:g} mm away, too far to be looked at")
     return lines
 
 

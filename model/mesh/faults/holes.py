@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .report import arrays_of
-from .sides import Floats, Numbers, Sides, pieces, shells, sides_of, twins
+from .sides import Flags, Floats, Numbers, Sides, pieces, shells, sides_of, twins
 from .welding import proper
 from .words import many
 
@@ -14,11 +14,16 @@ FLAT = 1e-6
 """A border is flat where no vertex is farther from its plane than this share of its size."""
 LARGE = 300
 """Bent borders with more vertices are closed towards their middle."""
+SAMPLE = 50
+"""Triangles of a piece that are looked at first."""
 KEY = 1 << 31
 
 
-def close_holes(vertices: ArrayLike, triangles: ArrayLike, longest: float | None = None) -> tuple[Floats, Numbers, str]:
-    """Borders filled with triangles that face as their neighbours do; with `longest` only those up to that length, mm.
+def close_holes(
+    vertices: ArrayLike, triangles: ArrayLike, longest: float | None = None, at: ArrayLike | None = None
+) -> tuple[Floats, Numbers, str]:
+    """Borders filled with triangles that face as their neighbours do: with `longest` only those up to that length, mm,
+    with `at` those that pass one of these vertices.
 
     Flat borders become flat faces, those within others holes of them. Of bent ones the least area is sought (Barequet
     and Sharir 1995); those of very many vertices are closed towards a new vertex in their middle. Left are borders that
@@ -30,11 +35,13 @@ def close_holes(vertices: ArrayLike, triangles: ArrayLike, longest: float | None
     faces = proper(faces)
     sides = sides_of(faces, len(points))
     loops, tangled = _loops(sides)
+    if at is not None:
+        loops, tangled = [loop for loop in loops if np.isin(loop, at).any()], 0
     lengths = [float(np.linalg.norm(points[loop] - np.roll(points[loop], 1, axis=0), axis=1).sum()) for loop in loops]
     short = [loop for loop, length in zip(loops, lengths, strict=True) if longest is None or length <= longest]
     sheets = _sheets(points, faces, shells(sides), short)
     chosen = [loop for loop, sheet in zip(short, sheets, strict=True) if not sheet]
-    known = np.unique(sides.ends @ (KEY, 1))
+    known = _Known(sides)
     added: list[Numbers] = []
     closed = 0
     for group in _coplanar(points, chosen, [_plane(points[loop]) for loop in chosen]):
@@ -43,7 +50,7 @@ def close_holes(vertices: ArrayLike, triangles: ArrayLike, longest: float | None
         if len(filling):
             added.append(filling)
             closed += len(rings)
-            known = np.union1d(known, _keys(filling))
+            known.add(filling)
     result = np.vstack((faces, *added)) if added else faces
     words = [f"{many(closed, 'hole')} closed with {many(len(result) - len(faces), 'triangle')}"] if closed else []
     if len(loops) > len(short):
@@ -57,7 +64,26 @@ def close_holes(vertices: ArrayLike, triangles: ArrayLike, longest: float | None
     return points, result, ", ".join(words)
 
 
-def _filled(points: Floats, rings: list[Numbers], known: Numbers) -> tuple[Floats, Numbers]:
+class _Known:
+    """The edges that there are, by a number for each pair of vertices; those of the fillings come one by one."""
+
+    def __init__(self, sides: Sides) -> None:
+        self._given = sides.ends @ (KEY, 1)  # rising, as the edges are
+        self._added: set[int] = set()
+
+    def add(self, triangles: Numbers) -> None:
+        self._added.update(_keys(triangles).tolist())
+
+    def among(self, keys: Numbers) -> Flags:
+        """Which of these edges there are."""
+        place = np.minimum(np.searchsorted(self._given, keys), max(len(self._given) - 1, 0))
+        there = self._given[place] == keys if len(self._given) else np.zeros(keys.shape, bool)
+        if self._added:
+            there |= np.isin(keys, list(self._added))
+        return there
+
+
+def _filled(points: Floats, rings: list[Numbers], known: _Known) -> tuple[Floats, Numbers]:
     """The vertices, with one more where it takes that, and triangles (m, 3) that close a border and those within it.
 
     None where new edges would be `known` ones: such an edge would have more than two faces.
@@ -73,7 +99,7 @@ def _filled(points: Floats, rings: list[Numbers], known: Numbers) -> tuple[Float
     if len(ring) > LARGE:
         hub = np.full(len(ring), len(points))
         return np.vstack((points, points[ring].mean(axis=0))), np.column_stack((ring, np.roll(ring, -1), hub))
-    found = ring[least_area(points[ring], np.isin(_pair_keys(ring[:, None], ring[None]), known))]
+    found = ring[least_area(points[ring], known.among(_pair_keys(ring[:, None], ring[None])))]
     return points, np.zeros((0, 3), np.int64) if _again(found, rings, known) else found
 
 
@@ -86,11 +112,11 @@ def _keys(triangles: Numbers) -> Numbers:
     return _pair_keys(triangles, triangles[:, [1, 2, 0]]).reshape(-1)
 
 
-def _again(triangles: Numbers, rings: list[Numbers], known: Numbers) -> bool:
+def _again(triangles: Numbers, rings: list[Numbers], known: _Known) -> bool:
     """Whether triangles that fill rings have sides that are known and are none of the rings'."""
     own = np.concatenate([_pair_keys(ring, np.roll(ring, -1)) for ring in rings])
     inner = np.setdiff1d(_keys(triangles), own)
-    return bool(np.isin(inner, known).any())
+    return bool(known.among(inner).any())
 
 
 def _loops(sides: Sides) -> tuple[list[Numbers], int]:
@@ -141,8 +167,12 @@ def _sheets(points: Floats, faces: Numbers, shell: Numbers, loops: list[Numbers]
         normal, flat = _plane(points[loop])
         if flat:
             piece = of_vertex[loop[0]]
-            local = points[faces[order[starts[piece] : starts[piece + 1]]].reshape(-1)] - points[loop].mean(axis=0)
-            flat = bool(np.abs(local @ normal).max() <= FLAT * np.abs(local).max())
+            mine, middle = order[starts[piece] : starts[piece + 1]], points[loop].mean(axis=0)
+            for rows in (mine[:: len(mine) // SAMPLE + 1], mine):  # few are flat: a look at some tells most
+                local = points[faces[rows].reshape(-1)] - middle
+                flat = flat and bool(np.abs(local @ normal).max() <= FLAT * np.abs(local).max())
+                if not flat:
+                    break
         found.append(flat)
     return found
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...document.errors import Refusal
-from .box_pairs import meeting
+from .box_pairs import near_segments
 from .sides import Flags, Floats, Numbers, Sides
 
 MAX_PAIRS = 20_000_000
@@ -32,7 +32,7 @@ class Near:
 
 def near_vertices(vertices: Floats, sides: Sides, tolerance: float) -> Near:
     """Vertices of edges within `tolerance` of each other that no edge joins. Raises Refusal for too many of them."""
-    used = np.unique(sides.ends)
+    used = np.flatnonzero(np.bincount(sides.ends.reshape(-1), minlength=len(vertices)))
     pairs = used[close_pairs(vertices[used], tolerance)]
     pairs = pairs[~_listed(pairs, sides.ends, len(vertices))]
     one, two = vertices[pairs[:, 0]], vertices[pairs[:, 1]]
@@ -64,11 +64,9 @@ def near_edges(
     that edge: such triangles are slivers. Edges with a common vertex are joined.
     """
     a, b = vertices[sides.ends[:, 0]], vertices[sides.ends[:, 1]]
-    margin = tolerance * (0.5 + 1e-9)
-    low, high = np.minimum(a, b) - margin, np.maximum(a, b) + margin
     meets: list[Numbers] = [np.zeros((0, 2), np.int64)]
     crosses: list[Numbers] = [np.zeros((0, 2), np.int64)]
-    for one, two in meeting(low, high, told):
+    for one, two in near_segments(a, b, tolerance * (0.5 + 1e-9), told):
         one, two = _lines_near(a, b, sides.ends, one, two, tolerance)
         near_one, ends_one = _ends_at(vertices, sides.ends[one], sides.ends[two], tolerance)
         near_two, ends_two = _ends_at(vertices, sides.ends[two], sides.ends[one], tolerance)
@@ -106,8 +104,11 @@ def _vertices_on(vertices: Floats, triangles: Numbers, sides: Sides, meets: Numb
     count = max(len(sides.ends), 1)
     opposite = triangles[:, [2, 0, 1]].reshape(-1)
     here = sides.edge >= 0
+    near = np.zeros(len(vertices), bool)
+    near[meets[:, 0]] = True
+    here &= near[opposite]
     own = np.unique(opposite[here] * count + sides.edge[here])
-    keys = np.setdiff1d(meets[:, 0] * count + meets[:, 1], own)
+    keys = np.setdiff1d(meets[:, 0] * count + meets[:, 1], own).astype(np.int64)
     vertex, ends = keys // count, sides.ends[keys % count]
     feet, gaps, _ = feet_on(vertices[vertex], vertices[ends[:, 0]], vertices[ends[:, 1]])
     return Near(np.column_stack((vertex, ends)), (feet + vertices[vertex]) / 2.0, gaps)
@@ -152,8 +153,9 @@ def _between(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats
     sizes = np.einsum("ij,ij->i", along, along) * np.einsum("ij,ij->i", across, across)
     askew = squared > 1e-24 * sizes
     safe = np.where(askew, squared, 1.0)
-    s = np.einsum("ij,ij->i", np.cross(apart, across), normal) / safe
-    t = np.einsum("ij,ij->i", np.cross(apart, along), normal) / safe
+    with np.errstate(over="ignore"):  # of nearly parallel ones, whose places are far outside
+        s = np.clip(np.einsum("ij,ij->i", np.cross(apart, across), normal) / safe, -1.0, 2.0)
+        t = np.clip(np.einsum("ij,ij->i", np.cross(apart, along), normal) / safe, -1.0, 2.0)
     one, two = a + s[:, None] * along, c + t[:, None] * across
     inner = askew & (s > 0.0) & (s < 1.0) & (t > 0.0) & (t < 1.0)
     return (one + two) / 2.0, np.linalg.norm(one - two, axis=1), inner

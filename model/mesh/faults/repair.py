@@ -15,16 +15,7 @@ from .report import FAULTS, MeshFaults, Progress, arrays_of, find_faults
 from .sides import Floats, Numbers
 from .thinning import drop_slivers
 from .welding import split_edges, weld
-from .words import MESH_KINDS
-
-REPAIRS = {
-    "weld": "Vertices within the tolerance become one, and open edges are joined to vertices beside them",
-    "duplicates": "Of faces with the same corners one is kept",
-    "slivers": "Faces thinner than the tolerance are taken out",
-    "orient": "Faces are turned to agree with their neighbours, and outwards",
-    "holes": "Borders are filled",
-}
-"""What can be asked for, in the order in which it is done, in words for the user."""
+from .words import MESH_KINDS, REPAIRS
 
 NAMES = {"open_edges": "open edges"} | {words.count: words.several for words in MESH_KINDS.values()}
 """The counts of a MeshFaults that should be 0, in words."""

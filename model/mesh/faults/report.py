@@ -18,6 +18,9 @@ from .words import MESH_KINDS, KindWords, many
 Progress = Callable[[str, float], None]
 """Told what is being done and which share of all is done, 0 to 1; may raise to stop."""
 
+FARTHEST = 1e40
+"""mm; with larger coordinates the squares of volumes are no numbers any more."""
+
 COUNTS = ("vertices", "triangles", "components", "open_edges", "borders", "overused_edges", "turned_edges", "crossings",
           "duplicates", "degenerate", "near_vertex_edge", "near_edge_edge", "near_vertices", "slivers")  # fmt: skip
 FAULTS = COUNTS[3:]
@@ -147,7 +150,7 @@ def find_faults(
     places = points[thin].mean(axis=1)
     listed += _rows("sliver", thin, places, lengths[slivers].max(axis=1, initial=0.0), heights[slivers], limit)
     return MeshFaults(
-        vertices=len(np.unique(faces)),
+        vertices=int(np.count_nonzero(np.bincount(faces.reshape(-1), minlength=len(points)))),
         triangles=len(faces),
         open_edges=int(sides.open.sum()),
         borders=len(borders),
@@ -177,6 +180,9 @@ def arrays_of(vertices: ArrayLike, triangles: ArrayLike, tolerance: float = 0.0)
     if not np.isfinite(points).all():
         bad = int(np.flatnonzero(~np.isfinite(points).all(axis=1))[0])
         raise Refusal(f"vertex {bad + 1:,} has a coordinate that is no finite number")
+    if (np.abs(points) > FARTHEST).any():
+        bad = int(np.flatnonzero((np.abs(points) > FARTHEST).any(axis=1))[0])
+        raise Refusal(f"vertex {bad + 1:,} lies more than {FARTHEST:g} mm away, too far to be looked at")
     if len(faces) and (faces.min() < 0 or faces.max() >= len(points)):
         bad = int(np.flatnonzero(((faces < 0) | (faces >= len(points))).any(axis=1))[0])
         raise Refusal(f"triangle {bad + 1:,} asks for a vertex that the {len(points):,} vertices do not have")

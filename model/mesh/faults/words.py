@@ -4,6 +4,15 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+REPAIRS = {
+    "weld": "Vertices within the tolerance become one, and open edges are joined to vertices beside them",
+    "duplicates": "Of faces with the same corners one is kept",
+    "slivers": "Faces thinner than the tolerance are taken out",
+    "orient": "Faces are turned to agree with their neighbours, and outwards",
+    "holes": "Borders are filled",
+}
+"""What can be asked for, in the order in which it is done, in words for the user."""
+
 
 @dataclass(frozen=True, slots=True)
 class KindWords:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -16,10 +17,10 @@ from numpy.typing import ArrayLike
 from ...document.document import Document
 from ...document.errors import Refusal
 from ...document.tree import find
-from ...mesh.euler import EditedMesh
-from ...mesh.lists import of_triangles
-from ...mesh.winged import END, LEFT, RIGHT, START, WingedEdge, winged_edge
-from .mesh_nodes import Floats, NodeMesh, Numbers, mesh_of_node, with_mesh
+from .mesh_nodes import Floats, NodeMesh, Numbers, mesh_of_node, numbers_of, with_mesh
+
+if TYPE_CHECKING:
+    from ...mesh.euler import EditedMesh
 
 Edge = Sequence[int]
 """The numbers of the two vertices that it joins."""
@@ -46,7 +47,7 @@ def flip_mesh_edge(document: Document, node_id: str, edge: Edge) -> Document:
     mesh, (a, b) = _with_edge(document, node_id, edge)
     faces = mesh.triangles
     near, number = _around(mesh, a, b)
-    _tried(lambda: EditedMesh(near).flip(number), number, a, b)
+    _tried(lambda: near.flip(number), number, a, b)
     one, two = _beside(faces, a, b).tolist()
     changed = faces.copy()
     changed[one] = np.where(faces[one] == a, _third(faces[two], a, b), faces[one])
@@ -66,7 +67,7 @@ def collapse_mesh_edge(document: Document, node_id: str, edge: Edge, at: float =
     mesh, (a, b) = _with_edge(document, node_id, edge)
     near, number = _around(mesh, a, b)
     point = _on(mesh.vertices, a, b, at, ends=True)
-    _tried(lambda: EditedMesh(near).collapse(number, point), number, a, b)
+    _tried(lambda: near.collapse(number, point), number, a, b)
     points = mesh.vertices.copy()
     points[a] = point
     faces = np.where(mesh.triangles == b, a, mesh.triangles)
@@ -77,7 +78,7 @@ def collapse_mesh_edge(document: Document, node_id: str, edge: Edge, at: float =
 def split_mesh_face(document: Document, node_id: str, face: int, at: Sequence[float] | None = None) -> Document:
     """Put a vertex into a triangle, in its middle or `at` a point (3,), and join it to the corners."""
     mesh = mesh_of_node(document, node_id)
-    (row,) = _numbers([face], len(mesh.triangles), "face", mesh, document, node_id)
+    (row,) = numbers_of([face], len(mesh.triangles), "face", find(document, node_id).label)
     corners = mesh.triangles[row]
     point = mesh.vertices[corners].mean(axis=0) if at is None else _rows(at, 1, "a point")[0]
     vertex = len(mesh.vertices)
@@ -92,7 +93,7 @@ def split_mesh_face(document: Document, node_id: str, face: int, at: Sequence[fl
 def delete_mesh_faces(document: Document, node_id: str, faces: Iterable[int]) -> Document:
     """Take triangles out of a mesh; vertices that no triangle has any more go with them."""
     mesh = mesh_of_node(document, node_id)
-    rows = _numbers(faces, len(mesh.triangles), "face", mesh, document, node_id)
+    rows = numbers_of(faces, len(mesh.triangles), "face", find(document, node_id).label)
     return with_mesh(document, node_id, mesh.vertices, np.delete(mesh.triangles, rows, axis=0))
 
 
@@ -100,7 +101,7 @@ def reverse_mesh_faces(document: Document, node_id: str, faces: Iterable[int] | 
     """Turn triangles round so that they face the other side; None: all."""
     mesh = mesh_of_node(document, node_id)
     every = range(len(mesh.triangles))
-    rows = _numbers(every if faces is None else faces, len(mesh.triangles), "face", mesh, document, node_id)
+    rows = numbers_of(every if faces is None else faces, len(mesh.triangles), "face", find(document, node_id).label)
     changed = mesh.triangles.copy()
     changed[rows] = changed[rows, ::-1]
     return with_mesh(document, node_id, mesh.vertices, changed)
@@ -109,7 +110,7 @@ def reverse_mesh_faces(document: Document, node_id: str, faces: Iterable[int] | 
 def move_mesh_vertices(document: Document, node_id: str, vertices: Iterable[int], by: ArrayLike) -> Document:
     """Move vertices `by` a vector (3,), or each by one of its own (k, 3)."""
     mesh = mesh_of_node(document, node_id)
-    rows = _numbers(vertices, len(mesh.vertices), "vertex", mesh, document, node_id)
+    rows = numbers_of(vertices, len(mesh.vertices), "vertex", find(document, node_id).label)
     points = mesh.vertices.copy()
     points[rows] += _rows(by, len(rows), "a move")
     return with_mesh(document, node_id, points, mesh.triangles)
@@ -120,15 +121,19 @@ def _with_edge(document: Document, node_id: str, edge: Edge) -> tuple[NodeMesh, 
     ends = list(edge) if hasattr(edge, "__iter__") else []
     if len(ends) != 2:
         raise Refusal(f"an edge is told by the numbers of its two vertices, not {edge!r:.60}")
-    a, b = _numbers(ends, len(mesh.vertices), "vertex", mesh, document, node_id).tolist()
+    a, b = numbers_of(ends, len(mesh.vertices), "vertex", find(document, node_id).label).tolist()
     if not len(_beside(mesh.triangles, a, b)):
         raise Refusal(f"“{find(document, node_id).label}” has no edge from vertex {a} to {b}")
     return mesh, (a, b)
 
 
-def _around(mesh: NodeMesh, a: int, b: int) -> tuple[WingedEdge, int]:
-    """The winged edge of what lies around an edge, far enough for its operators, and the edge's number in it; vertices
+def _around(mesh: NodeMesh, a: int, b: int) -> tuple[EditedMesh, int]:
+    """What lies around an edge, far enough for the operators to be tried on it, and the edge's number in it; vertices
     keep theirs. Raises Refusal where the surface is none there."""
+    from ...mesh.euler import EditedMesh
+    from ...mesh.lists import of_triangles
+    from ...mesh.winged import END, LEFT, RIGHT, START, winged_edge
+
     faces = mesh.triangles
     ring = np.zeros(len(mesh.vertices), bool)
     ring[[a, b]] = True
@@ -142,7 +147,7 @@ def _around(mesh: NodeMesh, a: int, b: int) -> tuple[WingedEdge, int]:
         beside = near.table[np.asarray(near.star(vertex))][:, [LEFT, RIGHT]]
         if len(np.setdiff1d(beside, [-1])) < int((faces == vertex).sum()):
             raise Refusal(f"surfaces meet in vertex {vertex} alone: there is more than one edge to follow")
-    return near, int(found[0])
+    return EditedMesh(near), int(found[0])
 
 
 def _tried(operator: Callable[[], object], number: int, a: int, b: int) -> None:
@@ -184,21 +189,3 @@ def _rows(values: ArrayLike, count: int, what: str) -> Floats:
     if not np.isfinite(rows).all():
         raise Refusal(f"{what} is three finite numbers, not {values!r:.60}")
     return rows
-
-
-def _numbers(values: Iterable[int], count: int, what: str, mesh: NodeMesh, document: Document, node_id: str) -> Numbers:
-    """Numbers of elements, each once, in their order. Raises Refusal for what there is not."""
-    label = find(document, node_id).label
-    try:
-        rows = np.asarray(list(values) if not hasattr(values, "dtype") else values)
-    except TypeError:
-        raise Refusal(f"a {what} is told by its number, not {values!r:.60}") from None
-    if not rows.size:
-        raise Refusal(f"select what is to change of “{label}” first")
-    if rows.ndim != 1 or rows.dtype.kind not in "iu":
-        raise Refusal(f"a {what} is told by its number, not {values!r:.60}")
-    bad = np.flatnonzero((rows < 0) | (rows >= count))
-    if len(bad):
-        raise Refusal(f"“{label}” has no {what} {rows[bad[0]]}; there are {count:,}, counted from 0")
-    _, first = np.unique(rows, return_index=True)
-    return rows[np.sort(first)].astype(np.int64)

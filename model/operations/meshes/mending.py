@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ...document.document import Document
 from ...document.errors import Refusal
 from ...document.tree import find
-from ...mesh.faults.repair import REPAIRS, Repaired, mended, repaired
-from ...mesh.faults.report import Progress
-from .mesh_nodes import mesh_of_node, with_mesh
+from ...mesh.faults.words import REPAIRS
+from .mesh_nodes import mesh_of_node, numbers_of, with_mesh
+
+if TYPE_CHECKING:
+    from ...mesh.faults.repair import Repaired
+    from ...mesh.faults.report import Progress
 
 Repairs = Collection[str] | str
 
@@ -28,15 +32,32 @@ def repair_mesh(
     The tolerance and the `longest` border that is filled are in mm of the world. The document stays as it is where
     there is nothing to repair. Raises Refusal.
     """
+    from ...mesh.faults.repair import mended
+
     mesh = mesh_of_node(document, node_id)
     before = mesh.in_world()
     try:
-        *after, _ = mended(*before, tolerance, repairs, longest)
+        points, faces, _ = mended(*before, tolerance, repairs, longest)
     except Refusal as refusal:
         raise Refusal(f"“{find(document, node_id).label}”: {refusal}") from None
-    if all(np.array_equal(one, other) for one, other in zip(before, after, strict=True)):
+    if np.array_equal(points, before[0]) and np.array_equal(faces, before[1]):
         return document
-    return with_mesh(document, node_id, *mesh.from_world(*after))
+    return with_mesh(document, node_id, *mesh.from_world(points, faces))
+
+
+def close_mesh_holes(document: Document, node_id: str, vertices: Iterable[int]) -> Document:
+    """Fill the borders of a mesh that pass some of these vertices, told by their numbers in `mesh_of_node`.
+
+    Raises Refusal where that closes nothing.
+    """
+    from ...mesh.faults.holes import close_holes
+
+    mesh, label = mesh_of_node(document, node_id), find(document, node_id).label
+    rows = numbers_of(vertices, len(mesh.vertices), "vertex", label)
+    points, faces, said = close_holes(mesh.vertices, mesh.triangles, at=rows)
+    if len(faces) == len(mesh.triangles):
+        raise Refusal(f"“{label}”: {said or 'no border that could be filled passes there'}")
+    return with_mesh(document, node_id, points, faces)
 
 
 def repair_of(
@@ -51,4 +72,6 @@ def repair_of(
 
     Raises Refusal.
     """
+    from ...mesh.faults.repair import repaired
+
     return repaired(*mesh_of_node(document, node_id).in_world(), tolerance, repairs, longest, progress)

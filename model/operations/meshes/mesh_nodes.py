@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,7 +17,6 @@ from ...document.outlines import is_outline
 from ...document.placement import Placement, inverse
 from ...document.primitives import ImportedMesh, Polyhedron
 from ...document.tree import change, find
-from ...mesh.faults.sides import distinct_places
 from ..curves.addressing import plain_values
 
 if TYPE_CHECKING:
@@ -52,6 +52,8 @@ class NodeMesh:
 
     def from_world(self, points: Floats, triangles: Numbers) -> tuple[Floats, Numbers]:
         """The way back of what was made of `in_world`: vertices that stayed come back to the very same coordinates."""
+        from ...mesh.faults.sides import distinct_places
+
         before, _ = self.in_world()
         _, first, which = np.unique(
             distinct_places(np.concatenate((before, points))), return_index=True, return_inverse=True
@@ -133,6 +135,23 @@ def part_of(node: Node) -> Part:
         raise Refusal(f"“{node.label}”: its file holds {len(parts)} solids, not number {index}")
     part = parts[index]
     return part if unit == 1.0 else make_part("", None, part.vertices, part.triangles, unit=unit)
+
+
+def numbers_of(values: Iterable[int], count: int, what: str, label: str) -> Numbers:
+    """The numbers of vertices or faces, `what`, of `count` that a node has, each once. Raises Refusal for others."""
+    try:
+        rows = np.asarray(list(values) if not hasattr(values, "dtype") else values)
+    except TypeError:
+        raise Refusal(f"a {what} is told by its number, not {values!r:.60}") from None
+    if not rows.size:
+        raise Refusal(f"select what is to change of “{label}” first")
+    if rows.ndim != 1 or rows.dtype.kind not in "iu":
+        raise Refusal(f"a {what} is told by its number, not {values!r:.60}")
+    bad = np.flatnonzero((rows < 0) | (rows >= count))
+    if len(bad):
+        raise Refusal(f"“{label}” has no {what} {rows[bad[0]]}; there are {count:,}, counted from 0")
+    _, first = np.unique(rows, return_index=True)
+    return rows[np.sort(first)].astype(np.int64)
 
 
 def with_mesh(document: Document, node_id: str, vertices: Floats, triangles: NDArray[np.integer]) -> Document:
