@@ -38,7 +38,7 @@ bench: $(READY)
 	@set --; [ -n "$${DISPLAY:-}" ] || [ "$$(uname)" != Linux ] || set -- $(XVFB); \
 	for script in $$(grep -l __main__ bench/*.py); do echo "== $$script"; "$$@" $(BIN)/python $$script || exit 1; done
 
-$(READY): requirements.lock pyproject.toml model/partition/bsp.cpp
+$(READY): requirements.lock pyproject.toml model/partition/bsp.cpp model/partition/proximity.cpp
 	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || \
 		{ echo "Solidtree needs Python 3.11 or newer; name one with: make PYTHON=python3.12"; exit 1; }
 	@.ci/system-packages

@@ -33,9 +33,12 @@ def new_lane(on_message: Callable[[LaneMessage], None]) -> Lane:
 
 
 def same_shape(a: Document, b: Document) -> bool:
-    """Whether two documents are the same solids and outlines, looks and names apart."""
-    same = a.definitions == b.definitions and a.parameters == b.parameters
-    return same and [(r.id, r.digest) for r in a.standing] == [(r.id, r.digest) for r in b.standing]
+    """Whether two documents are the same solids and outlines with the same creases, other looks and names apart."""
+    if a.parameters != b.parameters:
+        return False
+    pairs = ((a.definitions, b.definitions), (a.standing, b.standing))
+    return all([(r.id, r.digest, r.creases) for r in one] == [(r.id, r.digest, r.creases) for r in other]
+               for one, other in pairs)  # fmt: skip
 
 
 class Evaluation(QObject):

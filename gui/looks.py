@@ -20,6 +20,8 @@ class Looks:
         self.ghosts, self.colour_by_node = flag("ghosts", True), flag("colour_by_node", False)
         self.style = "edges"
         self.translucent = False
+        self.culling = False
+        self.clipping: tuple[float, float] | None = None
 
     def apply(self) -> None:
         """Bring the picture to this state, when its parts are there."""
@@ -38,7 +40,21 @@ class Looks:
         self._window.viewport.change(lambda viewer: viewer.set_opacity(TRANSLUCENT if translucent else 1.0))
         self._window.actions_.refresh()
 
+    def set_culling(self, culling: bool) -> None:
+        """Leave out faces that are turned away from the eye."""
+        self.culling = culling
+        self._window.viewport.change(lambda viewer: viewer.set_culling(culling))
+        self._window.actions_.refresh()
+
+    def set_clipping(self, clipping: tuple[float, float] | None) -> None:
+        """Show only what lies between two distances before the eye, in mm; None for all that is there."""
+        self.clipping = clipping
+        self._window.viewport.change(lambda viewer: viewer.set_clipping(clipping))
+        self._window.actions_.refresh()
+
     def set_parallel(self, parallel: bool) -> None:
+        if parallel != self.parallel:
+            self.set_clipping(None)  # distances may be negative in a parallel projection alone
         self.parallel = parallel
         self._window.viewport.change(lambda viewer: viewer.set_projection(parallel))
         self._keep("parallel", parallel)

@@ -36,6 +36,8 @@ from .faults.panel import FaultsPanel
 from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
+from .mesh.panel import MeshPanel
+from .normals.needle_view import NeedleView
 from .palette.palette import Palette
 from .panels.figures import FigureUse
 from .panels.measured import measured
@@ -46,6 +48,7 @@ from .panels.script_log import ScriptLog
 from .panels.sections import Sections
 from .parameters.parameters import Parameters
 from .partition.panel import BspPanel
+from .pipeline.panel import PipelinePanel, let_float
 from .settings import LAYOUT_VERSION, Settings
 from .side_windows import SideWindows
 from .status import StatusBar, shown_solids
@@ -131,6 +134,8 @@ class MainWindow(QMainWindow):
         self.viewport.add_tool(self.light_tool)
         self.mapping_tool = MappingTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.mapping_tool)
+        self.needles = NeedleView(self.viewport, self.session)
+        self.viewport.add_tool(self.needles)
         self.status = StatusBar(self)
         self.setStatusBar(self.status)
         self._make_docks()
@@ -186,6 +191,8 @@ class MainWindow(QMainWindow):
         self.script = ScriptLog(self.session, self)
         self.bsp = BspPanel(self)
         self.surfaces = SurfacesPanel(self)
+        self.pipeline = PipelinePanel(self)
+        self.mesh = MeshPanel(self)
         self.faults = FaultsPanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
@@ -207,6 +214,8 @@ class MainWindow(QMainWindow):
                 "Parameters": self.parameters,
                 "BSP": self.bsp,
                 "Surfaces": self.surfaces,
+                "Pipeline": self.pipeline,
+                "Mesh": self.mesh,
             },
             bottom={
                 "Problems": self.problems,
@@ -217,6 +226,9 @@ class MainWindow(QMainWindow):
             },
         )
         self.docks["Surfaces"].hide()
+        self.docks["Pipeline"].hide()
+        let_float(self.docks["Pipeline"])
+        self.docks["Mesh"].hide()
 
     # What happens.
 
@@ -235,6 +247,7 @@ class MainWindow(QMainWindow):
             self.sections,
             self.script,
             self.surfaces,
+            self.mesh,
             self.faults,
         ):
             part.session_changed(before, after)
@@ -368,6 +381,7 @@ class MainWindow(QMainWindow):
         self._unlisten()
         self.files.background.close()
         self.hidden_surfaces.close()
+        self.pipeline.close_work()
         self.evaluation.close()
         self.viewport.close_viewer()
         super().closeEvent(event)

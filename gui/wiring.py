@@ -20,6 +20,7 @@ def connect(window: MainWindow) -> None:
     _drawing(window)
     _editing(window)
     _surfaces(window)
+    _mesh(window)
     window.parameters.sets.import_asked.connect(lambda: ask_import(window))
     window.parameters.sets.export_asked.connect(lambda: ask_export(window))
     window.files.path_changed.connect(window.follow_title)
@@ -33,6 +34,7 @@ def connect(window: MainWindow) -> None:
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     _faults(window)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
+    _pipeline(window)
     window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
     window.docks["Curve"].visibilityChanged.connect(window.actions_.refresh)
     window.curve_panel.seen.connect(window.joints_page.set_seen)
@@ -58,6 +60,8 @@ def _words(window: MainWindow) -> None:
         window.bsp,
         window.curve,
         window.surfaces,
+        window.pipeline,
+        window.mesh,
         window.faults,
         window.light_tool,
         window.mapping_tool,
@@ -69,6 +73,7 @@ def _words(window: MainWindow) -> None:
         window.files.notice,
         window.figure_use.said,
         window.measure.said,
+        window.needles.said,
     ):
         said.connect(status.say)
     window.place_on_face.said.connect(status.set_hint)
@@ -116,6 +121,23 @@ def _measuring(window: MainWindow) -> None:
     panel.start_asked.connect(lambda: window.actions_.run("measure"))
     window.files.opened.connect(tool.clear)
     window.files.opened.connect(tool.end)
+
+
+def _pipeline(window: MainWindow) -> None:
+    tool = window.pipeline.tool
+    window.docks["Pipeline"].visibilityChanged.connect(window.pipeline.set_in_front)
+    tool.said.connect(window.status.set_hint)
+    others = (window.measure, window.sight, window.draw, window.face_plane, window.engrave)
+    for other in (*others, window.place_on_face, window.bsp.probe):
+        tool.began.connect(other.end)
+    for other in others:
+        other.began.connect(tool.end)
+    tool.began.connect(lambda: window.handles.set_hidden(True))
+    tool.ended.connect(lambda: window.handles.set_hidden(False))
+    for signal in (tool.began, tool.ended):
+        signal.connect(window.actions_.refresh)
+    window.files.opened.connect(window.pipeline.forget)
+    window.files.opened.connect(lambda: window.looks.set_clipping(None))
 
 
 def _editing(window: MainWindow) -> None:
@@ -184,7 +206,30 @@ def _surfaces(window: MainWindow) -> None:
         light.set_aside(True)
         window.handles.set_hidden(True)  # the end of the placement has shown them
 
-    for other in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+    tools = (window.measure, window.sight, window.draw, window.face_plane, window.engrave, window.pipeline.tool)
+    for other in tools:
         other.began.connect(give_way)
         other.ended.connect(lambda: light.set_aside(False))
     window.files.opened.connect(mapping.end)
+
+
+def _mesh(window: MainWindow) -> None:
+    """The clicks are the Mesh panel's while it is in front, until another tool begins."""
+    window.docks["Mesh"].visibilityChanged.connect(window.mesh.set_in_front)
+
+    def made() -> None:
+        inspector = window.mesh.inspector
+        assert inspector is not None
+        tool = inspector.tool
+        tool.said.connect(window.status.set_hint)
+        tool.began.connect(lambda: window.handles.set_hidden(True))
+        tool.ended.connect(lambda: window.handles.set_hidden(False))
+        others = (window.measure, window.sight, window.draw, window.face_plane, window.engrave, window.pipeline.tool)
+        for other in others:
+            tool.began.connect(other.end)
+        for other in (*others, window.mapping_tool):
+            other.began.connect(tool.end)
+        for signal in (tool.began, tool.ended):
+            signal.connect(window.actions_.refresh)
+
+    window.mesh.made.connect(made)

@@ -11,7 +11,20 @@ from __future__ import annotations
 
 from .document.document import Document
 from .document.errors import Refusal
-from .scripting import documents, faults, fonts, hidden_surfaces, joining, letters, shapes, sight, surfaces
+from .scripting import (
+    documents,
+    faults,
+    fonts,
+    hidden_surfaces,
+    joining,
+    letters,
+    pipelines,
+    proximity,
+    shapes,
+    sight,
+    structures,
+    surfaces,
+)
 from .scripting import outlines as flat
 from .scripting.documents import *  # noqa: F403
 from .scripting.faults import *  # noqa: F403
@@ -20,8 +33,11 @@ from .scripting.hidden_surfaces import *  # noqa: F403
 from .scripting.joining import *  # noqa: F403
 from .scripting.letters import *  # noqa: F403
 from .scripting.outlines import *  # noqa: F403
+from .scripting.pipelines import *  # noqa: F403
+from .scripting.proximity import *  # noqa: F403
 from .scripting.shapes import *  # noqa: F403
 from .scripting.sight import *  # noqa: F403
+from .scripting.structures import *  # noqa: F403
 from .scripting.surfaces import *  # noqa: F403
 
 __all__ = ["Document", "Refusal"]
@@ -30,8 +46,11 @@ __all__ += flat.__all__
 __all__ += letters.__all__
 __all__ += joining.__all__
 __all__ += documents.__all__
-__all__ += faults.__all__
 __all__ += fonts.__all__
 __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__
 __all__ += surfaces.__all__
+__all__ += faults.__all__
+__all__ += pipelines.__all__
+__all__ += proximity.__all__
+__all__ += structures.__all__

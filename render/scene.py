@@ -34,6 +34,7 @@ class Scene:
         self.style = "shaded"
         self.shading = "phong"
         self.opacity = 1.0
+        self.culling = False
         self.line_scale = 1.0
         self.selection: frozenset[Path] = frozenset()
         self.hover: Path | None = None
@@ -205,6 +206,12 @@ class Scene:
             self.opacity = opacity
             self._restyle()
 
+    def set_culling(self, culling: bool) -> None:
+        """Leave out the faces of solids that are turned away from the eye, whether or not something hides them."""
+        if culling != self.culling:
+            self.culling = culling
+            self._restyle()
+
     def set_line_scale(self, scale: float) -> None:
         """Device pixels per logical pixel; lines are as many times wider."""
         if scale != self.line_scale:
@@ -337,6 +344,7 @@ class Scene:
         for actor in self.painter.actors:
             dress_faces(actor, self.style, self.shading, self.look, self.opacity, self.surfaces, dressed, pieces=True)
             actor.SetForceTranslucent(dressed and self.translucent)
+            actor.GetProperty().SetBackfaceCulling(self.culling)
 
     @property
     def _ground(self) -> Any:
@@ -348,6 +356,7 @@ class Scene:
 
     def _style(self, entry: SolidActors) -> None:
         entry.set_style(self.style, self.shading, self.look, self.opacity, self._line_width, self.surfaces)
+        entry.faces.GetProperty().SetBackfaceCulling(self.culling and not entry.mesh.sheet)
 
     def _paint(self, entry: SolidActors) -> None:
         entry.paint(self.style, self.look, self.selection, self.hover, self._ground)

@@ -11,6 +11,7 @@ from . import camera as camera_value
 from .camera import Camera, fit, ray, with_projection
 from .curves.line_pick import LinePicker
 from .ghosts.ghosts import Ghost, Ghosts
+from .ghosts.needles import NormalNeedles
 from .ground import Ground
 from .handles.overlay import Overlay
 from .look import Look, look_of
@@ -47,11 +48,13 @@ class Viewer:
         self.ground = Ground(self.renderer, look)
         self.scene.painter.over_ground()
         self.ghosts = Ghosts(self.renderer, look)
+        self.needles = NormalNeedles(self.renderer, look)
         self.overlay = Overlay(self.window, look)
         self.cube = ViewCube(self.window, look, layer=2)
         self.camera = standard_view(Camera(), "iso")
         self.size = (300.0, 200.0)
         self.scale = 1.0
+        self.clipping: tuple[float, float] | None = None
         self.needs_render = True
         self.changed_camera: Callable[[Camera], None] | None = None
         self._picker = Picker()
@@ -71,6 +74,7 @@ class Viewer:
         self.scene.set_line_scale(scale)
         self.ground.set_line_scale(scale)
         self.ghosts.set_line_scale(scale)
+        self.needles.set_line_scale(scale)
         self.cube.resize(*self.size, scale)
         self.needs_render = True
 
@@ -82,6 +86,9 @@ class Viewer:
         self.scene.before_render(self.camera, self.ground.height)
         bounds = union(union(self.scene.visible_bounds(), self.ground.bounds), self.ghosts.bounds)
         camera_value.apply(self.camera, self.renderer.GetActiveCamera(), bounds)
+        if self.clipping is not None:
+            shift = self.renderer.GetActiveCamera().GetDistance() - self.camera.distance
+            self.renderer.GetActiveCamera().SetClippingRange(*(distance + shift for distance in self.clipping))
         self.overlay.before_render(self.camera, self.size, self.scale)
         self.cube.turn(self.camera)
         if self._software is None or self._peeling != self.scene.peeling:
@@ -115,6 +122,11 @@ class Viewer:
         self.ghosts.show(ghosts)
         self.needs_render = True
 
+    def show_needles(self, lines: Mapping[str, NDArray[np.float64]]) -> None:
+        """Normals (n, 2, 3) from foot to tip by kind, "face" or "vertex"."""
+        self.needles.show(lines, self.scene.sections)
+        self.needs_render = True
+
     def set_selection(self, paths: Iterable[tuple[str | int, ...]]) -> None:
         """See `Scene.set_selection`."""
         self.scene.set_selection(paths)
@@ -136,6 +148,7 @@ class Viewer:
     def set_sections(self, sections: "Iterable[Section]", dragged: bool = False) -> None:
         """See `Scene.set_sections`."""
         self.scene.set_sections(sections, dragged)
+        self.needles.clip(self.scene.sections)
         self.needs_render = True
 
     def set_theme(self, theme: Look | str) -> None:
@@ -144,6 +157,7 @@ class Viewer:
         self.scene.set_look(look)
         self.ground.set_look(look)
         self.ghosts.set_look(look)
+        self.needles.set_look(look)
         self.overlay.set_look(look)
         self.cube.set_look(look)
         self.needs_render = True
@@ -186,6 +200,19 @@ class Viewer:
     def set_painted(self, count: int | None) -> None:
         """Draw only the first `count` fragments of the painter's order, None for all."""
         self.scene.painter.count = count
+        self.needs_render = True
+
+    def set_culling(self, culling: bool) -> None:
+        """See `Scene.set_culling`."""
+        self.scene.set_culling(culling)
+        self.needs_render = True
+
+    def set_clipping(self, clipping: tuple[float, float] | None) -> None:
+        """Show only what lies between two distances before the eye, in mm; None for all that is there. In perspective
+        the first one is above 0; ValueError for distances in the wrong order."""
+        if clipping is not None and not (clipping[0] < clipping[1] and (self.camera.parallel or clipping[0] > 0.0)):
+            raise ValueError(f"near and far planes cannot stand at {clipping}")
+        self.clipping = clipping
         self.needs_render = True
 
     def set_ground(self, visible: bool) -> None:

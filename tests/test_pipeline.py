@@ -6,7 +6,7 @@ from scipy.optimize import linprog
 from scipy.spatial import ConvexHull, HalfspaceIntersection
 from vtkmodules.vtkRenderingCore import vtkRenderer
 
-from solidtree.model.pipeline.clipping import PLANES, Polygons, clipped, clipped_lines, front_facing, tally
+from solidtree.model.pipeline.clipping import PLANES, Polygons, clipped, clipped_lines, drawn, front_facing
 from solidtree.model.pipeline.stages import (
     divided,
     homogeneous,
@@ -130,7 +130,8 @@ def test_what_faces_away_or_lies_outside_is_counted():
     far, half = square + np.array((5, 0, 0, 0)), square + np.array((0.8, 0, 0, 0))
     clip = np.concatenate((square, far, half))
     rows = np.array([(0, 1, 2), (0, 2, 1), (4, 5, 6), (8, 9, 11)])
-    counts, polygons = tally(clip, rows)
-    assert (counts.triangles, counts.away, counts.outside, counts.cut, counts.drawn) == (4, 1, 1, 1, 2)
-    assert polygons.counts.tolist() == [3, 4] and tally(clip, rows, cull=False)[0].drawn == 3
+    left = drawn(clip, rows)
+    assert left.away.tolist() == [False, True, False, False] and left.outside.tolist() == [False, False, True, False]
+    assert left.source.tolist() == [0, 3] and left.cut.tolist() == [False, True]
+    assert left.polygons.counts.tolist() == [3, 4] and drawn(clip, rows, cull=False).source.tolist() == [0, 1, 3]
     assert front_facing(Polygons(square[None], np.array([4]))).tolist() == [True]

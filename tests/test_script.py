@@ -21,9 +21,20 @@ from solidtree.model.script import (
     sphere,
     union,
 )
-from solidtree.model.scripting import documents, faults, hidden_surfaces, joining, letters, shapes, sight
+from solidtree.model.scripting import (
+    documents,
+    faults,
+    hidden_surfaces,
+    joining,
+    letters,
+    pipelines,
+    proximity,
+    shapes,
+    sight,
+    structures,
+)
 
-PARTS = (shapes, letters, joining, documents, faults, hidden_surfaces, sight)
+PARTS = (shapes, letters, joining, documents, hidden_surfaces, sight, faults, pipelines, proximity, structures)
 
 
 def test_the_examples_in_the_words_are_true():

@@ -194,12 +194,23 @@ def format_5() -> Document:
     )
 
 
+def format_6() -> Document:
+    """Format 5, with crease angles."""
+    before = format_5()
+    creased = (box(3) + sphere(2, segments=8).creased(0)).named("creased").creased(12.5)
+    return before.with_(
+        solids=(*before.solids, _children_numbered(creased.with_(id="c0"))),
+        notes="Every kind of node, as format 6 writes it.",
+    )
+
+
 def _children_numbered(root: Node) -> Node:
     return root.with_(children=tuple(child.with_(id=f"{root.id}_{i}") for i, child in enumerate(root.children)))
 
 
 @pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2), ("format_3", format_3),
-                                            ("format_4", format_4), ("format_5", format_5)])  # fmt: skip
+                                            ("format_4", format_4), ("format_5", format_5),
+                                            ("format_6", format_6)])  # fmt: skip
 def test_every_format_opens_as_it_was_made(name, made):
     assert same_document(open_document(PROJECTS / f"{name}.solidtree"), made())
 

@@ -13,6 +13,8 @@ from ... import resources
 from ...model.editing.commands import Command
 from ..icons import icon
 from .arrange import ARRANGE_SEPARATORS
+from .mesh import MESH_SEPARATORS
+from .normals import NORMAL_SEPARATORS
 from .surfaces import SURFACE_SEPARATORS
 
 if TYPE_CHECKING:
@@ -37,11 +39,13 @@ ORDER = {
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces bitmap_inspector - "
-    "faults repair_faults - tool_menu",
+    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces Tools/Normals "
+    "Tools/Mesh bitmap_inspector follow_vertex - faults repair_faults - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
-    "view_left - perspective tolerances grid ghosts colour_by_node translucent sections - hidden_surface "
-    "View/Hidden_surfaces View/Style View/Shading View/Theme - diagram bsp_panel surfaces_panel panels",
+    "view_left - perspective tolerances grid ghosts face_normals vertex_normals colour_by_node translucent sections "
+    "cull_back_faces automatic_clipping - hidden_surface "
+    "View/Hidden_surfaces View/Style View/Shading View/Theme - "
+    "diagram bsp_panel surfaces_panel mesh_panel pipeline_panel panels",
     "Help": "palette cheat_sheet shortcuts - about",
 }
 """What stands in a menu and in which order: commands, submenus by place or by a name of their own, - for separators.
@@ -50,12 +54,17 @@ A command that is not named here stands at the top, so that it is seen.
 """
 
 
+WITHIN = {"Tools/Mesh": ("Tools/Mesh elements", "Tools/Walk along edges", "Tools/Edit mesh")}
+"""Submenus that stand at the end of another one."""
+
+
 def in_menu_order(menu: str, commands: Iterable[Command]) -> list[Command]:
     """Those of the commands that stand in a menu or in its submenus, from top to bottom."""
     places = {name: place for place, name in enumerate(ORDER.get(menu, "").split())}
 
     def place(command: Command) -> int:
-        return places.get(command.name, places.get(command.menu.replace(" ", "_"), -1))
+        outer = next((outer for outer, inner in WITHIN.items() if command.menu in inner), command.menu)
+        return places.get(command.name, places.get(outer.replace(" ", "_"), -1))
 
     return sorted((command for command in commands if command.menu.split("/")[0] == menu), key=place)
 
@@ -79,7 +88,17 @@ def fill_menus(window: MainWindow) -> None:
                 menus[title].addSeparator()
             else:
                 menus[title].addAction(entries.get(name) or window.actions_[name])  # moves it to the end
-    for place, names in (("Tools/Arrange", ARRANGE_SEPARATORS), ("Tools/Surfaces", SURFACE_SEPARATORS)):
+    for place, inner in WITHIN.items():
+        menus[place].addSeparator()
+        for name in inner:
+            menus[name.split("/")[0]].removeAction(menus[name].menuAction())
+            menus[place].addMenu(menus[name])
+    for place, names in (
+        ("Tools/Arrange", ARRANGE_SEPARATORS),
+        ("Tools/Surfaces", SURFACE_SEPARATORS),
+        ("Tools/Normals", NORMAL_SEPARATORS),
+        ("Tools/Mesh", MESH_SEPARATORS),
+    ):
         for name in names:
             menus[place].insertSeparator(window.actions_[name])
 

@@ -17,9 +17,12 @@ from .fonts import FONT_COMMANDS
 from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
+from .mesh import MESH_COMMANDS
 from .nodes import NODE_COMMANDS
+from .normals import NORMAL_COMMANDS
 from .parameters import PARAMETER_COMMANDS
 from .partition import PARTITION_COMMANDS
+from .pipeline import PIPELINE_COMMANDS
 from .relief import RELIEF_COMMANDS
 from .sections import SECTION_COMMANDS
 from .sight import SIGHT_COMMANDS
@@ -48,6 +51,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (VIEW_COMMANDS, window),
         (HIDDEN_SURFACE_COMMANDS, window),
         (PARTITION_COMMANDS, window),
+        (PIPELINE_COMMANDS, window),
         (SECTION_COMMANDS, window),
         (HANDLE_COMMANDS, window),
         (MEASURE_COMMANDS, window),
@@ -56,5 +60,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
         (SURFACE_COMMANDS, window),
+        (MESH_COMMANDS, window),
+        (NORMAL_COMMANDS, window),
     ):
         actions.add(table, context)

@@ -15,6 +15,7 @@ from ...model.document.placement import Affine, Move, Reflect, Scale, Step, Turn
 from ...model.document.tree import find, walk
 from ...model.editing.session import Session
 from ..icons import icon, kind_icon
+from ..normals.crease_row import CreaseRow
 from ..surfaces.look_rows import MaterialRow, TextureForm
 from .colour_field import ColourField
 from .form import Form
@@ -73,7 +74,7 @@ class NodeForm(Form):
             TextureForm(self, node.id, self._texture_placement)
 
     def build_look(self, ids: list[str], surfaces: bool = True) -> None:
-        """Visibility and colour, which all kinds of nodes have, and the material of those with `surfaces`."""
+        """Visibility and colour, which all kinds of nodes have, and what is the surface's of those with `surfaces`."""
         self.heading("Look")
         box = QCheckBox(self)
         box.setObjectName("visible")
@@ -97,6 +98,7 @@ class NodeForm(Form):
         self.line("Colour", colour, "It stays on its faces in every result")
         if surfaces:
             MaterialRow(self, ids)
+            CreaseRow(self, ids)
 
     def _name(self, node: Node) -> None:
         name = TextLine(parent=self)

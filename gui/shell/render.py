@@ -35,7 +35,9 @@ def add_options(command: argparse.ArgumentParser) -> None:
     """The options of `render`."""
     command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
     command.add_argument("out", metavar="OUT.png")
-    command.add_argument("--size", type=_size, default=(1200, 800), metavar="WxH", help="in pixels, default 1200x800")
+    command.add_argument(
+        "--size", type=picture_size, default=(1200, 800), metavar="WxH", help="in pixels, default 1200x800"
+    )
     add_view_options(command)
     command.add_argument("--hidden-surface", choices=("zbuffer", "bsp"), default="zbuffer", help="default zbuffer")
     command.add_argument("--style", choices=("shaded", "edges", "wireframe", "hidden-line"), default="shaded")
@@ -87,7 +89,7 @@ def add_view_options(command: argparse.ArgumentParser, angle: str = "full vertic
     projection.add_argument("--perspective", type=_angle, metavar="ANGLE", help=angle)
 
 
-def _size(text: str) -> tuple[int, int]:
+def picture_size(text: str) -> tuple[int, int]:
     found = re.fullmatch(r"(\d{1,5})x(\d{1,5})", text)
     size = (int(found[1]), int(found[2])) if found else (0, 0)
     if not all(1 <= side <= 16384 for side in size):
@@ -167,7 +169,7 @@ def render(options: argparse.Namespace) -> int:
 
     from ...render import picture
 
-    view, perspective = _camera(options, meshes)
+    view, perspective = camera_wanted(options, meshes)
     if options.compare_shadings:
         pixels = _compared(options, document, [(r, m) for r, m in shown if not m.sheet], view, perspective)
     elif options.ids is not None:
@@ -261,7 +263,7 @@ def _paint(document: Document, root: Node, mesh: DisplayMesh, by_node: bool) -> 
     return Paint(root.colour, tuple(occurrence.colour for occurrence in found))
 
 
-def _camera(options: argparse.Namespace, meshes: list) -> tuple[Camera | str, float | None]:
+def camera_wanted(options: argparse.Namespace, meshes: list) -> tuple[Camera | str, float | None]:
     """A camera where the eye is given, else a view's name; and the angle, None for parallel projection."""
     perspective = None if options.parallel else options.perspective or 30.0
     if options.eye is None:

@@ -17,7 +17,13 @@ SLACK = 4  # pixels the pointer may move in a click
 
 
 class ClickTool(Tool):
-    """Sub-classes say when they are `active`, and what a click and the pointer mean."""
+    """Sub-classes say when they are `active`, and what a click and the pointer mean.
+
+    Clicks with other `modifiers` held are left to the navigation; `held` is what the last press came with.
+    """
+
+    modifiers: tuple[Qt.KeyboardModifier, ...] = (Qt.KeyboardModifier.NoModifier,)
+    held = Qt.KeyboardModifier.NoModifier
 
     def __init__(self, viewport: Viewport, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -51,12 +57,11 @@ class ClickTool(Tool):
     def press(self, event: QMouseEvent) -> bool:
         if not self.takes_clicks() or self._viewer is None:
             return False
-        plain = event.modifiers() == Qt.KeyboardModifier.NoModifier
-        if event.button() != Qt.MouseButton.LeftButton or not plain:
+        if event.button() != Qt.MouseButton.LeftButton or event.modifiers() not in self.modifiers:
             return self._pressed is not None
         if self._viewer.cube_hit(event.position().x(), event.position().y()):
             return False
-        self._pressed = event.clone()
+        self._pressed, self.held = event.clone(), event.modifiers()
         return True
 
     def move(self, event: QMouseEvent) -> bool:

@@ -47,6 +47,9 @@ class Node:
     """The name of a material of the document, or in scripts the material itself; "": that of what it is part of."""
     mapping: TextureMapping | None = None
     """How bitmaps lie on its faces; None: as on what it is part of."""
+    crease: float | None = None
+    """Degrees, 0 to 180: facets of a leaf that meet at less look smooth, at more they have an edge between them. None:
+    as what it is part of, and where that says nothing as its kind has it."""
     placement: Placement = Placement()
     children: tuple[Node, ...] = ()
     digest: bytes = dataclasses.field(init=False)
@@ -55,6 +58,8 @@ class Node:
     """The same without the node's own placement."""
     symbolic: bool = dataclasses.field(init=False)
     """Whether an expression stands in it or below, or a node that refers to other parts of the document."""
+    creases: bytes = dataclasses.field(init=False)
+    """Of the crease angles in it and below, b"" where there are none: what a picture depends on beside the digest."""
 
     kind: ClassVar[str] = "Node"
     title: ClassVar[str] = "Node"
@@ -83,6 +88,8 @@ class Node:
             raise Refusal(f"{self.title}: a material or the name of one is needed, not {self.material!r:.60}")
         if self.mapping is not None and not isinstance(self.mapping, TextureMapping):
             raise Refusal(f"{self.title}: a texture's mapping is needed, not {self.mapping!r:.60}")
+        if self.crease is not None:
+            _set(self, "crease", _crease_angle(self.crease, self.title))
         children = self.children
         if type(children) is not tuple:
             try:
@@ -108,11 +115,13 @@ class Node:
         for numbers in packed:
             state.update(numbers)
         depends = symbolic(tuple(values)) or self.refers
+        creased = self.crease is not None
         for child in children:
             if not isinstance(child, Node):
                 raise Refusal(f"{self.title} takes solids, not {child!r:.60}")
             state.update(child.digest)
             depends = depends or child.symbolic
+            creased = creased or bool(child.creases)
         shape = state.digest()
         _set(self, "shape_digest", shape)
         if self.placement.steps:
@@ -121,6 +130,8 @@ class Node:
             depends = depends or self.placement.symbolic()
         _set(self, "digest", shape)
         _set(self, "symbolic", depends)
+        below = (self.crease, *(child.creases for child in children)) if creased else ()
+        _set(self, "creases", blake2b(repr(below).encode(), digest_size=16).digest() if creased else b"")
 
     def __eq__(self, other: object) -> bool:
         return self.digest == other.digest if isinstance(other, Node) else NotImplemented
@@ -210,6 +221,10 @@ class Node:
                 changes["mapping" if isinstance(part, TextureMapping) else "material"] = part
         return self.with_(**changes)
 
+    def creased(self, angle: float) -> Self:
+        """With faces that look smooth where they meet at less than `angle` degrees: 0 all flat, 180 all smooth."""
+        return self.with_(crease=angle)
+
     def noted(self, note: str) -> Self:
         """With a note to the reader."""
         return self.with_(note=note)
@@ -221,6 +236,12 @@ class Node:
     def _placed(self, step: Step) -> Self:
         placement = self.placement.then(step)
         return self if placement is self.placement else self.with_(placement=placement)
+
+
+def _crease_angle(value: Any, title: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not 0.0 <= value <= 180.0:
+        raise Refusal(f"{title}: a crease angle is a plain number of degrees from 0 to 180, not {value!r:.60}")
+    return float(value)
 
 
 _SPECS: dict[type[Node], tuple[FieldSpec, ...]] = {}
@@ -240,7 +261,13 @@ def field_specs(kind: type[Node]) -> tuple[FieldSpec, ...]:
 def _flat(node: Node, kind: type[Node]) -> tuple[Node, ...]:
     """The operands of a plain operation of this kind, so that a + b + c is one union of three."""
     plain = type(node) is kind and not (
-        node.name or node.note or node.colour or node.material or node.mapping or node.placement.steps
+        node.name
+        or node.note
+        or node.colour
+        or node.material
+        or node.mapping
+        or node.placement.steps
+        or node.crease is not None
     )
     return node.children if plain and node.visible else (node,)
 

@@ -76,6 +76,8 @@ def _row(node: Node) -> dict[str, Any]:
         row["material"] = node.material if isinstance(node.material, str) else node.material.name
     if node.mapping is not None:
         row["mapping"] = _changed(node.mapping, TextureMapping)
+    if node.crease is not None:
+        row["crease"] = _plain(node.crease)
     if node.placement.steps:
         row["placement"] = [[step.word, *(_plain(n) for n in step.numbers)] for step in node.placement.steps]
     if node.children:
@@ -188,7 +190,8 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
     specs = {spec.name: spec for spec in field_specs(kind)}
     if kind is Instance and children:
         raise Refusal(f"node {node_id}: an instance holds no operands")
-    known = {"kind", "name", "colour", "visible", "note", "material", "mapping", "placement", "children", *specs}
+    known = {"kind", "name", "colour", "visible", "note", "material", "mapping", "crease", "placement", "children",
+             *specs}  # fmt: skip
     try:
         extra = sorted(set(row) - known)
         if extra:
@@ -204,6 +207,8 @@ def _node(node_id: str, row: Mapping[str, Any], children: tuple[Node, ...]) -> N
             changes["colour"] = hex_colour(row["colour"])
         if "mapping" in row:
             changes["mapping"] = _restored(row["mapping"], "a texture's mapping", TextureMapping)
+        if "crease" in row:
+            changes["crease"] = row["crease"]
         if "placement" in row:
             changes["placement"] = Placement(
                 tuple(_step(step) for step in _expect(row["placement"], list, "“placement”"))

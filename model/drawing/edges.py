@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..solid.display import FEATURE as SHARP
 from ..solid.display import SEAM
 from .lines import BORDER, FEATURE, INTERSECTION, OUTLINE
 from .scene import Scene
@@ -53,14 +52,15 @@ def drawable_edges(scene: Scene, surfaces: Surfaces) -> Edges:
     plane_one, plane_other = faces.plane_of[one], faces.plane_of[other]
     sign = np.where(joints.turned, -1, 1)
     cosine = sign * np.einsum("ij,ij->i", faces.planes[plane_one, :3], faces.planes[plane_other, :3])
+    sharp = surfaces.sharp[one]  # of both sides, where they have one owner; others have an edge between them anyway
     alone = joints.sides[:, 1] < 0
     foreign = (surfaces.solid[one] != surfaces.solid[other]) & ~alone
     between = ((surfaces.owner[one] != surfaces.owner[other]) & (cosine < SEAM)) | foreign
-    smooth = ~(alone | between | joints.several | joints.turned) & (cosine >= SHARP)
+    smooth = ~(alone | between | joints.several | joints.turned) & (cosine >= sharp)
     facing = _without_zigzags(surfaces, joints, smooth)
     outline = (facing[one] != sign * facing[other]) & ~alone
     kind = np.full(len(one), -1, np.int8)
-    kind[(cosine < SHARP) | joints.several] = FEATURE
+    kind[(cosine < sharp) | joints.several] = FEATURE
     kind[between] = INTERSECTION
     kind[outline] = OUTLINE
     kind[alone] = BORDER

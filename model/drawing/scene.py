@@ -17,7 +17,7 @@ from ..partition.faces import Faces, faces_of_meshes
 from ..partition.tree import Tree
 from ..solid.display import DisplayMesh, display_mesh
 from ..solid.provenance import Occurrence, occurrences, owners_of_runs
-from ..solid.results import CONVEX, Evaluation, SolidResult
+from ..solid.results import CONVEX, Evaluation, SolidResult, creases_of
 from .drawing import Layer
 
 Numbers = NDArray[np.int32]
@@ -96,7 +96,8 @@ def scene_of(evaluation: Evaluation, progress: Callable[[str], None] | None = No
         kernel_mesh = whole.to_mesh64()
         owner = owners_of_runs(kernel_mesh, members[0][1], evaluation.evaluator.originals, found)
         convex = np.array([isinstance(occurrence.leaf, CONVEX) for occurrence in found], dtype=bool)
-        mesh = display_mesh(kernel_mesh, owner, tuple(occurrence.path for occurrence in found), convex)
+        paths = tuple(occurrence.path for occurrence in found)
+        mesh = display_mesh(kernel_mesh, owner, paths, convex, creases_of(found))
         of = [n for (_, root, _), each in zip(members, by_root, strict=True) for n in numbered(each, root)]
         solid_of = np.repeat([number for number, _, _ in members], [len(each) for each in by_root])
         parts.append((mesh, True, np.array([*of, of[0]], np.int32), np.append(solid_of, -1).astype(np.int32)))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..partition.faces import Faces
+from ..solid.display import FEATURE
 from .polygons import Ragged, ranges
 from .projection import Projection
 from .scene import Scene
@@ -32,6 +33,7 @@ class Surfaces:
     layer: Numbers  # (t,)
     solid: Numbers  # (t,)
     subtracted: NDArray[np.bool_]  # (t,)
+    sharp: Floats  # (t,) facets of one owner that meet at a smaller cosine have an edge between them
 
     def clipped(self, polygons: Ragged) -> tuple[Ragged, Numbers]:
         """Polygons of the world in the picture, what cannot be seen cut off, and which each piece is of."""
@@ -58,7 +60,7 @@ def surfaces_of(scene: Scene, projection: Projection) -> Surfaces:
     faces = scene.faces()
     planes = picture_planes(faces.planes, projection)
     facing = np.where(np.abs(planes[:, 2]) < EDGE_ON, 0, np.sign(planes[:, 2])).astype(np.int8)
-    owner, layer, solid, subtracted, behind = [], [], [], [], []
+    owner, layer, solid, subtracted, behind, sharp = [], [], [], [], [], []
     first = 0
     for mesh, closed, layers, solids in zip(scene.meshes, scene.closed, scene.layer_of, scene.solid_of, strict=True):
         owner.append(np.where(mesh.owner < 0, len(layers) - 1, mesh.owner) + first)
@@ -66,13 +68,16 @@ def surfaces_of(scene: Scene, projection: Projection) -> Surfaces:
         layer.append(layers[mesh.owner])
         solid.append(solids[mesh.owner])
         subtracted.append(mesh.subtracted)
+        least = np.full(len(mesh.owners), FEATURE) if mesh.creases is None else mesh.creases.edge
+        sharp.append(np.append(least, FEATURE)[mesh.owner])
         inside = not closed or (not projection.parallel and _is_inside(mesh.vertices[mesh.corners], projection.eye))
         behind.append(np.full(len(mesh.corners), inside))
     of_triangle = facing[faces.plane_of]
     owners, layers, solids = (np.concatenate([np.zeros(0, np.int64), *each]) for each in (owner, layer, solid))
     cut, from_behind = (np.concatenate([np.zeros(0, bool), *each]) for each in (subtracted, behind))
     shown = (of_triangle > 0) | (from_behind & (of_triangle < 0))
-    return Surfaces(faces, projection, planes, facing, shown, owners, layers, solids, cut)
+    return Surfaces(faces, projection, planes, facing, shown, owners, layers, solids, cut,
+                    np.concatenate([np.zeros(0), *sharp]))  # fmt: skip
 
 
 def picture_planes(planes: Floats, projection: Projection) -> Floats:

@@ -116,6 +116,8 @@ def _one(node: Node, operands: list[str]) -> str:
     dress = [_dress(part) for part in (node.material, node.mapping) if part]
     if dress:
         text += f".dressed({', '.join(dress)})"
+    if node.crease is not None:
+        text += f".creased({number_text(node.crease)})"
     for method, value in (("named", node.name), ("coloured", node.colour), ("noted", node.note)):
         if value:
             text += f".{method}({value!r})"

@@ -170,7 +170,13 @@ def _lines(a: Floats, u: Floats, b: Floats, v: Floats, bounded: tuple[bool, bool
 
 
 def _point_triangle(points: Floats, triangles: Floats) -> tuple[Floats, Floats]:
-    """The points, and the nearest ones of the triangles: the foot where it lies within, else on a side."""
+    """The points, and the nearest ones of the triangles."""
+    return points, nearest_on_triangles(points, triangles)
+
+
+def nearest_on_triangles(points: Floats, triangles: Floats) -> Floats:
+    """(n, 3) of triangles (n, 3, 3) the place nearest to each of points (n, 3): the foot where it lies within, else on
+    a side."""
     a, b, c = triangles[:, 0], triangles[:, 1], triangles[:, 2]
     normal = np.cross(b - a, c - a)
     square = np.einsum("ij,ij->i", normal, normal)
@@ -187,7 +193,7 @@ def _point_triangle(points: Floats, triangles: Floats) -> tuple[Floats, Floats]:
         gap = np.einsum("ij,ij->i", other - points, other - points)
         nearer = gap < best
         best, near = np.where(nearer, gap, best), np.where(nearer[:, None], other, near)
-    return points, near
+    return near
 
 
 def _pierced(start: Floats, way: Floats, triangles: Floats, bounded: bool = True) -> tuple[NDArray[np.bool_], Floats]:

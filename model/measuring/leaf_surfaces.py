@@ -24,12 +24,30 @@ SLOPE = 0.2
 CAP = math.sqrt(0.5)
 """A facet whose normal is nearer to the axis than 45 degrees may be the end of a round bar."""
 
-Shape = Plane | CylinderSurface | ConeSurface | SphereSurface | TorusSurface | None
+RoundShape = CylinderSurface | ConeSurface | SphereSurface | TorusSurface
+Shape = Plane | RoundShape | None
 ORIGIN: Vector = (0.0, 0.0, 0.0)
 UP: Vector = (0.0, 0.0, 1.0)
 
 LEVEL = 1e-6
 """The z of the unit normal of an upright facet is below this."""
+
+
+def round_shapes(leaf: Node) -> list[RoundShape]:
+    """The curved surfaces that faces of a leaf may lie on, in its own axes; none where the model does not know them."""
+    found: list[Shape] = []
+    if isinstance(leaf, Revolve) and not isinstance(leaf.children[0], Circle):
+        sides = _sides(leaf.children[0])
+        for (low, foot), (high, top) in [] if sides is None else sides.tolist():
+            if foot != top:
+                found.append(_slanted(*((low, foot, high, top) if foot < top else (high, top, low, foot))))
+    elif isinstance(leaf, Extrude | Revolve):
+        corners = np.tile((1.0, 0.0, float(leaf.height) if isinstance(leaf, Extrude) else 0.0), (3, 1))
+        if isinstance(leaf.children[0], Circle):  # its wall, and what leans
+            found = [shape_of(leaf, corners, np.array(normal)) for normal in ((1.0, 0.0, 0.0), (0.6, 0.0, 0.8))]
+    else:
+        found = [shape_of(leaf, np.zeros((3, 3)), np.array((1.0, 0.0, 0.0)))]
+    return [shape for shape in dict.fromkeys(found) if isinstance(shape, RoundShape)]
 
 
 @singledispatch

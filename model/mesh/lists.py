@@ -11,6 +11,8 @@ from numpy.typing import ArrayLike, NDArray
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
+SAME_PLANE = 1e-5
+"""Triangles side by side are one flat face up to this angle, in radians: that of coordinates in single precision."""
 SAME_NORMAL = 1e-9
 """Normals of faces are one row of the list where no coordinate differs by more."""
 
@@ -85,7 +87,13 @@ def of_triangles(vertices: ArrayLike, triangles: ArrayLike) -> MeshLists:
 
 
 def of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike) -> MeshLists:
-    """Lists of the polygons that connected triangles (t, 3) of the same flat face, `facet` (t,), make together.
+    """The lists that `faces_of_facets` finds."""
+    return faces_of_facets(vertices, triangles, facet)[0]
+
+
+def faces_of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike) -> tuple[MeshLists, Numbers]:
+    """Lists of the polygons that connected triangles (t, 3) of the same flat face, `facet` (t,), make together, and
+    (t,) which face each triangle is of.
 
     Their loops are the sides between triangles of different groups, chained around each corner through the group's own
     triangles, so that loops which touch in a vertex stay apart. The outer loop is the one with the largest area.
@@ -93,7 +101,7 @@ def of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike) -> Me
     points, found, group = np.asarray(vertices, float), np.asarray(triangles, np.int64), np.asarray(facet)
     count = len(found)
     if not count:
-        return of_triangles(points, found.reshape(0, 3))
+        return of_triangles(points, found.reshape(0, 3)), np.zeros(0, np.int64)
     starts = found.reshape(-1)
     ends = found[:, [1, 2, 0]].reshape(-1)
     twin = _twins(starts, ends, np.repeat(group, 3))
@@ -113,7 +121,25 @@ def of_facets(vertices: ArrayLike, triangles: ArrayLike, facet: ArrayLike) -> Me
     by_face = np.lexsort((-along, loop_piece))
     corners, loop_starts = _reordered(corners, loop_starts, by_face)
     face_loops = np.concatenate(([0], np.cumsum(np.bincount(loop_piece)))).astype(np.int64)
-    return of_loops(points, corners, loop_starts, face_loops)
+    return of_loops(points, corners, loop_starts, face_loops), piece
+
+
+def flat_facets(vertices: ArrayLike, triangles: ArrayLike) -> Numbers:
+    """(t,) which triangles (t, 3) hang together by sides at which the surface is flat, for `faces_of_facets`, where
+    nothing else tells which of them are one face."""
+    points, found = np.asarray(vertices, float), np.asarray(triangles, np.int64)
+    starts, ends = found.reshape(-1), found[:, [1, 2, 0]].reshape(-1)
+    twin = _twins(starts, ends, np.zeros(len(starts), np.int64))
+    a, b, c = (points[found[:, corner]] for corner in range(3))
+    normal = np.cross(b - a, c - a)
+    size = np.linalg.norm(normal, axis=1, keepdims=True)
+    normal /= np.where(size > 0.0, size, 1.0)
+    side = np.flatnonzero(twin >= 0)
+    one, other = normal[side // 3], normal[twin[side] // 3]
+    flat = np.einsum("ij,ij->i", one, other) > 0.5
+    flat &= np.linalg.norm(np.cross(one, other), axis=1) < SAME_PLANE
+    twin[side[~flat]] = -1
+    return _pieces(len(found), twin)
 
 
 def of_loops(vertices: Floats, corners: Numbers, loop_starts: Numbers, face_loops: Numbers) -> MeshLists:
@@ -123,11 +149,15 @@ def of_loops(vertices: Floats, corners: Numbers, loop_starts: Numbers, face_loop
     size = np.linalg.norm(areas, axis=1, keepdims=True)
     unit = areas / np.where(size > 0.0, size, 1.0)
     keys = np.round(unit / SAME_NORMAL).astype(np.int64)
-    _, first, which = np.unique(keys, axis=0, return_index=True, return_inverse=True)
+    order = np.lexsort(keys.T)
+    fresh = np.concatenate(([True], (np.diff(keys[order], axis=0) != 0).any(axis=1)))[: len(order)]
+    which = np.empty(len(order), np.int64)
+    which[order] = np.cumsum(fresh) - 1
+    first = order[fresh]  # the first face of each, since the sort is stable
     rank = np.empty(len(first), np.int64)  # in the order of the faces
     rank[np.argsort(first)] = np.arange(len(first))
     normals = unit[np.sort(first)]
-    return MeshLists(vertices, normals, corners, loop_starts, face_loops, rank[which.reshape(-1)])
+    return MeshLists(vertices, normals, corners, loop_starts, face_loops, rank[which])
 
 
 def _after(starts: Numbers) -> Numbers:

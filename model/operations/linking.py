@@ -72,6 +72,7 @@ def _unlinked(document: Document, node_id: str) -> Document:
         visible=node.visible,
         colour=node.colour or definition.colour,
         note=node.note or definition.note,
+        crease=node.crease if definition.crease is None else definition.crease,
         placement=Placement(copy.placement.steps + node.placement.steps),
     )
     document = change(document, node_id, lambda node: copy)

@@ -73,6 +73,12 @@ def set_mapping(document: Document, ids: Sequence[str], projection: str | None =
     return change_each(document, ids, changed)
 
 
+def set_crease(document: Document, ids: Sequence[str], angle: float | None = None) -> Document:
+    """Say at how many degrees faces of nodes have an edge between them: those that meet at less look smooth. 0: all
+    flat, 180: all smooth. None: as what they are part of, or as their kind has it."""
+    return change_each(document, ids, lambda node: node if node.crease == angle else node.with_(crease=angle))
+
+
 def add_light(document: Document, name: str | None = None, kind: str = "directional", **values: Any) -> Document:
     """Add a light with these fields (see Light). The first one takes the place of the program's own. None: a name is
     found."""

@@ -1,4 +1,4 @@
-"""The compiled half of this folder, `bsp.cpp`: loaded through ctypes where it was built, and nothing where it was not.
+"""The compiled code, bsp.cpp and proximity.cpp: loaded through ctypes where it was built, and nothing elsewhere.
 
 The environment variable SOLIDTREE_COMPILED=0 leaves it out. ctypes lets other threads run during its calls.
 """
@@ -20,7 +20,7 @@ from .tree import EPSILON, Tree, empty_tree
 
 Numbers = NDArray[np.int64]
 
-INTERFACE = 1
+INTERFACE = 2
 """What bsp_interface answers; one that was left over from before is not used."""
 
 _REPORT = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int64)
@@ -77,15 +77,15 @@ def _library() -> ctypes.CDLL | None:
         if not path.is_file():
             continue
         try:
-            library = ctypes.CDLL(str(path))
-            if library.bsp_interface() == INTERFACE:
-                return _declared(library)
+            found = ctypes.CDLL(str(path))
+            if found.bsp_interface() == INTERFACE:
+                return _declared(found)
         except (OSError, AttributeError):
             continue
     return None
 
 
-def _declared(library: ctypes.CDLL) -> ctypes.CDLL:
+def _declared(compiled: ctypes.CDLL) -> ctypes.CDLL:
     faces, tree, order = ctypes.POINTER(_Faces), ctypes.POINTER(_Tree), ctypes.POINTER(_Order)
     handle = ctypes.POINTER(_ADDRESS)
     for name, result, arguments in (
@@ -96,17 +96,23 @@ def _declared(library: ctypes.CDLL) -> ctypes.CDLL:
         ("bsp_free", None, (_ADDRESS,)),
         ("bsp_order", _COUNT, (order, _ADDRESS, _NUMBER, _NUMBER, _ADDRESS, _COUNT)),
         ("bsp_fans", None, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS)),
+        ("proximity_build", _COUNT, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS, _ADDRESS)),
+        ("proximity_distance", _NUMBER, (_ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
+        ("proximity_nearest", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, ctypes.c_double, _ADDRESS, _ADDRESS, _ADDRESS)),
+        ("proximity_pieces", None, (_ADDRESS, _COUNT, _COUNT, _ADDRESS)),
+        ("proximity_windings", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),
     ):
-        function = getattr(library, name)
+        function = getattr(compiled, name)
         function.restype, function.argtypes = result, arguments
-    return library
+    return compiled
 
 
-def _loaded() -> ctypes.CDLL:
-    library = _library()
-    if library is None:
+def library() -> ctypes.CDLL:
+    """What was compiled; only where it is `available`."""
+    found = _library()
+    if found is None:
         raise RuntimeError("the compiled BSP builder is not here")
-    return library
+    return found
 
 
 def build(faces: Faces, progress: Callable[[int, int], None] | None = None) -> Tree:
@@ -115,7 +121,7 @@ def build(faces: Faces, progress: Callable[[int, int], None] | None = None) -> T
     Raises ValueError for faces whose arrays do not fit together or hold something else than numbers, MemoryError, and
     OverflowError where there are more than 2³¹ pieces. What `progress` raises stops the work and is raised again.
     """
-    library = _loaded()
+    compiled = library()
     if not faces.count:
         return empty_tree(faces)
     raised: list[BaseException] = []
@@ -135,13 +141,13 @@ def build(faces: Faces, progress: Callable[[int, int], None] | None = None) -> T
     callback = _REPORT(report) if progress is not None else _REPORT()
     handle = _ADDRESS()
     try:
-        status = library.bsp_build(view, epsilon, callback, ctypes.byref(handle))
+        status = compiled.bsp_build(view, epsilon, callback, ctypes.byref(handle))
         if raised:
             raise raised[0]
         _check(status)
-        tree = _taken(library, handle, faces, epsilon, None)
+        tree = _taken(compiled, handle, faces, epsilon, None)
     finally:
-        library.bsp_free(handle)
+        compiled.bsp_free(handle)
         del held
     if progress is not None:
         progress(len(tree.source), len(tree.source))
@@ -150,20 +156,20 @@ def build(faces: Faces, progress: Callable[[int, int], None] | None = None) -> T
 
 def insert(tree: Tree, moving: Faces) -> Tree:
     """The tree with the faces `moving` put in; see `insertion.Moving.with_faces`. Raises as `build`."""
-    library = _loaded()
+    compiled = library()
     faces = joined((tree.faces, moving))
     faces_view, faces_held = _faces_view(faces)
     tree_view, tree_held = _tree_view(tree)
     handle = _ADDRESS()
     try:
         _check(
-            library.bsp_insert(
+            compiled.bsp_insert(
                 faces_view, tree_view, tree.faces.count, len(tree.faces.points), tree.epsilon, ctypes.byref(handle)
             )
         )
-        return _taken(library, handle, faces, tree.epsilon, tree)
+        return _taken(compiled, handle, faces, tree.epsilon, tree)
     finally:
-        library.bsp_free(handle)
+        compiled.bsp_free(handle)
         del faces_held, tree_held
 
 
@@ -196,7 +202,7 @@ class Order:
     def _ordered(self, view: _Order, room: int, eye: ArrayLike, parallel: bool, front_first: bool) -> Numbers:
         towards = _plain(np.asarray(eye, float).reshape(3), np.float64)
         out = np.empty(room, np.int64)
-        count = _loaded().bsp_order(view, towards.ctypes.data, parallel, front_first, out.ctypes.data, room)
+        count = library().bsp_order(view, towards.ctypes.data, parallel, front_first, out.ctypes.data, room)
         _check(-min(count, 0))
         return out[:count]
 
@@ -206,7 +212,7 @@ def _fans(starts: NDArray[np.int32]) -> tuple[Numbers, Numbers]:
     fragments = len(starts) - 1
     count = int(starts[-1]) - 2 * fragments
     triangles, fragment_of = np.empty((count, 3), np.int64), np.empty(count, np.int64)
-    _loaded().bsp_fans(starts.ctypes.data, fragments, triangles.ctypes.data, fragment_of.ctypes.data)
+    library().bsp_fans(starts.ctypes.data, fragments, triangles.ctypes.data, fragment_of.ctypes.data)
     return triangles, fragment_of
 
 
@@ -266,10 +272,10 @@ def _within(numbers: NDArray[np.int32], count: int, least: int = 0) -> bool:
     return not len(numbers) or bool(numbers.min() >= least and numbers.max() < count)
 
 
-def _taken(library: ctypes.CDLL, handle: ctypes.c_void_p, faces: Faces, epsilon: float, before: Tree | None) -> Tree:
+def _taken(compiled: ctypes.CDLL, handle: ctypes.c_void_p, faces: Faces, epsilon: float, before: Tree | None) -> Tree:
     """The tree in the handle: what is new in it, after the points and fragments of the tree `before`."""
     sizes = np.zeros(5, np.int64)
-    library.bsp_sizes(handle, sizes.ctypes.data)
+    compiled.bsp_sizes(handle, sizes.ctypes.data)
     new_points, new_corners, new_fragments, nodes, root = sizes.tolist()
     known = (
         (before.points, before.corners, before.starts, before.source)
@@ -281,7 +287,7 @@ def _taken(library: ctypes.CDLL, handle: ctypes.c_void_p, faces: Faces, epsilon:
     plane, kind = np.empty((nodes, 4)), np.empty(nodes, np.int8)
     front, back, first, count = (np.empty(nodes, np.int32) for _ in range(4))
     tails = [array[len(old) :] for array, old in zip((points, corners, starts, source), known, strict=True)]
-    library.bsp_copy(handle, *(array.ctypes.data for array in (*tails, plane, front, back, first, count, kind)))
+    compiled.bsp_copy(handle, *(array.ctypes.data for array in (*tails, plane, front, back, first, count, kind)))
     return Tree(faces, epsilon, points, corners, starts, source, plane, front, back, first, count, kind, root)
 
 

@@ -31,13 +31,21 @@ def clipped(triangles: Floats, planes: Floats = PLANES) -> Polygons:
     """Triangles (n, 3, 4), or polygons (n, k, 4) of k corners each, in clip coordinates, cut off at planes (p, 4).
 
     Sutherland and Hodgman (1974): each plane takes the corners inside it, and where a side crosses it the crossing; all
-    polygons at once.
+    polygons at once. What lies inside all planes, or outside one of them, is known without (Cohen and Sutherland).
     """
     corners = np.asarray(triangles, float)
     counts = np.full(len(corners), corners.shape[1], np.int64)
+    within = corners @ planes.T >= 0.0  # (n, k, p)
+    whole, gone = np.all(within, axis=(1, 2)), np.any(np.all(~within, axis=1), axis=1)
+    torn = np.flatnonzero(~whole & ~gone)
+    some, some_counts = corners[torn], counts[torn]
     for plane in planes:
-        corners, counts = _cut(corners, counts, plane)
-    return Polygons(corners, counts)
+        some, some_counts = _cut(some, some_counts, plane)
+    result = np.zeros((len(corners), max(corners.shape[1], some.shape[1]), 4))
+    result[whole, : corners.shape[1]] = corners[whole]
+    result[torn, : some.shape[1]] = some
+    counts[gone], counts[torn] = 0, some_counts
+    return Polygons(result, counts)
 
 
 def _cut(corners: Floats, counts: NDArray[np.int64], plane: Floats) -> tuple[Floats, NDArray[np.int64]]:
@@ -50,9 +58,12 @@ def _cut(corners: Floats, counts: NDArray[np.int64], plane: Floats) -> tuple[Flo
     beyond = np.take_along_axis(height, after, axis=1)
     inside, inside_after = height >= 0.0, beyond >= 0.0
     following = np.take_along_axis(corners, after[..., None], axis=1)
-    span = height - beyond
-    share = height / np.where(span != 0.0, span, 1.0)
-    crossing = corners + share[..., None] * (following - corners)
+    # From the end inside: two polygons with this side in common get the same crossing.
+    start, end = np.where(inside[..., None], corners, following), np.where(inside[..., None], following, corners)
+    near, far = np.where(inside, height, beyond), np.where(inside, beyond, height)
+    span = near - far
+    share = near / np.where(span != 0.0, span, 1.0)
+    crossing = start + share[..., None] * (end - start)
     # Of each corner come itself, where it is inside, and the crossing of the side after it.
     kept = np.stack((inside & used, (inside != inside_after) & used), axis=2).reshape(count, 2 * most)
     found = np.stack((corners, crossing), axis=2).reshape(count, 2 * most, 4)
@@ -93,31 +104,26 @@ def front_facing(polygons: Polygons) -> NDArray[np.bool_]:
     return np.where(used, area, 0.0).sum(axis=1) > 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class Tally:
-    """Triangles at each stage: all, those facing away, those wholly outside and those cut by a side of what is visible,
-    and those that are drawn."""
+@dataclass(frozen=True, slots=True, eq=False)
+class Drawn:
+    """What is left of t triangles: `polygons` in clip coordinates, each with the number of the triangle it is of in
+    `source` (n,), and whether a plane has cut it in `cut` (n,). `outside` (t,) and `away` (t,) tell the triangles of
+    which nothing is left, and those whose rest faces away from the eye."""
 
-    triangles: int
-    away: int
-    outside: int
-    cut: int
-    drawn: int
+    polygons: Polygons
+    source: NDArray[np.int64]
+    cut: NDArray[np.bool_]
+    outside: NDArray[np.bool_]
+    away: NDArray[np.bool_]
 
 
-def tally(clip: Floats, triangles: NDArray[np.integer], cull: bool = True) -> tuple[Tally, Polygons]:
-    """What becomes of triangles (t, 3) over points with clip coordinates (n, 4), and the polygons that are drawn."""
+def drawn(clip: Floats, triangles: NDArray[np.integer], cull: bool = True, planes: Floats = PLANES) -> Drawn:
+    """What is drawn of triangles (t, 3) over points with clip coordinates (n, 4): cut off at planes (p, 4), and with
+    `cull` without those that face away."""
     corners = clip[np.asarray(triangles)]
-    heights = corners @ PLANES.T
-    within = (heights >= 0.0).all(axis=(1, 2))
-    polygons = clipped(corners)
+    within = np.all(corners @ planes.T >= 0.0, axis=(1, 2))
+    polygons = clipped(corners, planes)
     left = polygons.counts >= 3
     facing = front_facing(polygons)
-    drawn = left & (facing | (not cull))
-    return Tally(
-        len(corners),
-        int((left & ~facing).sum()),
-        int((~left).sum()),
-        int((left & ~within).sum()),
-        int(drawn.sum()),
-    ), Polygons(polygons.corners[drawn], polygons.counts[drawn])
+    kept = np.flatnonzero(left & (facing | (not cull)))
+    return Drawn(Polygons(polygons.corners[kept], polygons.counts[kept]), kept, ~within[kept], ~left, left & ~facing)

@@ -73,13 +73,25 @@ def viewport_matrix(width: float, height: float) -> Floats:
 def stages(points: ArrayLike, model: ArrayLike, view: ArrayLike, projection: ArrayLike, viewport: ArrayLike) -> Stages:
     """Of points (n, 3) in a model's own axes; the matrices are (4, 4), that of the model may be (3, 4)."""
     own = homogeneous(np.asarray(points, float))
-    to_world = np.vstack((np.asarray(model, float)[:3], (0.0, 0.0, 0.0, 1.0)))
-    world = own @ to_world.T
+    world = own @ square(model).T
     eye = world @ np.asarray(view, float).T
     clip = eye @ np.asarray(projection, float).T
     device = divided(clip)
     pixel = homogeneous(device) @ np.asarray(viewport, float).T
     return Stages(world[:, :3], eye[:, :3], clip, device, pixel[:, :3])
+
+
+def unprojected(pixels: ArrayLike, view: ArrayLike, projection: ArrayLike, viewport: ArrayLike) -> Floats:
+    """(n, 3) the points of the world at pixels (n, 3), whose third coordinate is the depth from 0 to 1: the pipeline
+    backwards. Raises numpy's LinAlgError for matrices that flatten."""
+    whole = np.asarray(viewport, float) @ np.asarray(projection, float) @ np.asarray(view, float)
+    return divided(homogeneous(np.asarray(pixels, float)) @ np.linalg.inv(whole).T)
+
+
+def square(matrix: ArrayLike) -> Floats:
+    """(4, 4) of a (3, 4) map, or as it is."""
+    rows = np.asarray(matrix, float)
+    return rows if len(rows) == 4 else np.vstack((rows, (0.0, 0.0, 0.0, 1.0)))
 
 
 def homogeneous(points: Floats) -> Floats:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -21,8 +22,31 @@ FEATURE = np.cos(np.radians(25))
 """Facets of one owner that meet at more than this have an edge between them."""
 SEAM = np.cos(np.radians(10))
 """Facets of two owners that meet at more than this have one; less is a tangent joint of a faceted surface."""
+ROUNDING = 1e-9
+"""By how much more than nothing facets have to bend to meet at an angle."""
 MOST_AROUND = 300
 """A vertex with more facets than this keeps their own normals."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Creases:
+    """Cosines of angles between facets, by owner."""
+
+    smooth: NDArray[np.float64]  # (o,) facets that meet at a larger cosine share a normal
+    edge: NDArray[np.float64]  # (o,) those that meet at a smaller one have an edge between them
+
+    def by_side(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Both (2 o + 2,) for faces of owner k, 2 k, and those subtracted from it, 2 k + 1; the last two: of nobody."""
+        return np.append(np.repeat(self.smooth, 2), [SMOOTH] * 2), np.append(np.repeat(self.edge, 2), [FEATURE] * 2)
+
+
+def creases_at(angles: Sequence[float | None], round_: Sequence[bool]) -> Creases:
+    """The creases of owners whose facets meet smoothly at less than so many degrees (None: as their kind has it);
+    `round_` are those of a kind without creases, however coarse their facets are."""
+    own = np.array([angle is not None for angle in angles], dtype=bool)
+    cosine = np.cos(np.radians([0.0 if angle is None else angle for angle in angles])).reshape(-1)
+    of_kind = np.where(np.asarray(round_, dtype=bool), COARSE, SMOOTH)
+    return Creases(np.where(own, cosine, of_kind), np.where(own, cosine - ROUNDING, FEATURE))
 
 
 @dataclass(frozen=True, slots=True, eq=False, weakref_slot=True)
@@ -45,6 +69,8 @@ class DisplayMesh:
     convex: NDArray[np.bool_]  # (o,) owners whose whole surface, before it was cut, is known to be convex
     sheet: bool = False
     """Whether it is an outline that stands by itself, which encloses nothing (see sheet.py)."""
+    creases: Creases | None = None
+    """What the normals and the edges went by; None: no owner says anything."""
 
 
 def display_mesh(
@@ -52,10 +78,10 @@ def display_mesh(
     owner_of_run: NDArray[np.int32],
     owners: tuple[Path, ...] = (),
     convex: NDArray[np.bool_] | None = None,
-    smooth: NDArray[np.bool_] | None = None,
+    creases: Creases | None = None,
 ) -> DisplayMesh:
     """The picture's side of a result of manifold3d. `owner_of_run` as from provenance.owners_of_runs; `convex` (o,)
-    where it is known, `smooth` (o,) which owners have no creases however coarse they are."""
+    where it is known."""
     convex = np.zeros(len(owners), dtype=bool) if convex is None else convex
     points = np.asarray(mesh.vert_properties, dtype=np.float64)[:, :3]
     triangles = np.asarray(mesh.tri_verts).astype(np.int64)
@@ -87,12 +113,11 @@ def display_mesh(
     angle = np.bincount(corner_point, _angles(sides).reshape(-1), len(pairs)).astype(np.float64)
     owner_of_facet = np.empty(facets, dtype=np.int64)
     owner_of_facet[facet] = 2 * owner + subtracted
-    least = np.full(2 * len(owners) + 2, SMOOTH)
-    if smooth is not None:
-        least[: 2 * len(smooth)] = np.where(np.repeat(smooth, 2), COARSE, SMOOTH)
+    creases = creases_at([None] * len(owners), [False] * len(owners)) if creases is None else creases
+    least, sharp = creases.by_side()
     normals = _smooth(vertex, facet_normal[pair_facet], angle, owner_of_facet[pair_facet], least)
 
-    edges, edge_sides = _feature_edges(triangles, facet, facet_normal, owner_of_facet, len(points))
+    edges, edge_sides = _feature_edges(triangles, facet, facet_normal, owner_of_facet, sharp, len(points))
     used, edge_ends = np.unique(edges, return_inverse=True)
     return DisplayMesh(
         points=points[vertex].astype(np.float32),
@@ -109,6 +134,7 @@ def display_mesh(
         vertices=np.ascontiguousarray(points),
         corners=triangles.astype(np.int32),
         convex=convex,
+        creases=creases,
     )
 
 
@@ -194,15 +220,17 @@ def _feature_edges(
     facet: NDArray[np.int64],
     facet_normal: NDArray[np.float64],
     owner: NDArray[np.int64],
+    sharp: NDArray[np.float64],
     points: int,
 ) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """The edges (e, 2) where two facets meet at an angle, or two owners meet out of plane, and the triangles (e, 2) on
-    their two sides."""
+    """The edges (e, 2) where two facets of an owner meet at a cosine below its `sharp`, or those of two owners out of
+    plane, and the triangles (e, 2) on their two sides."""
     begin, end = triangles.reshape(-1), triangles[:, [1, 2, 0]].reshape(-1)
     order, ordered = _sorted(np.minimum(begin, end) * points + np.maximum(begin, end))
     pair = np.flatnonzero(ordered[:-1] == ordered[1:])
     sides = np.stack((order[pair], order[pair + 1]), axis=1) // 3
     a, b = facet[sides[:, 0]], facet[sides[:, 1]]
     cosine = np.einsum("ij,ij->i", facet_normal[a], facet_normal[b])
-    sharp = (a != b) & ((cosine < FEATURE) | ((owner[a] != owner[b]) & (cosine < SEAM)))
-    return np.stack(np.divmod(ordered[pair[sharp]], points), axis=1), sides[sharp]
+    least = np.where(owner[a] == owner[b], sharp[owner[a]], SEAM)
+    edge = (a != b) & (cosine < least)
+    return np.stack(np.divmod(ordered[pair[edge]], points), axis=1), sides[edge]

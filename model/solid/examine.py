@@ -48,7 +48,7 @@ def examine(
         box = _room(evaluator, solids, place, tolerance, progress) if endless else None
         if endless and box is None:
             continue
-        key = bare.digest + f"{tolerance!r}".encode() + (b"" if box is None else box.tobytes())
+        key = bare.digest + bare.creases + f"{tolerance!r}".encode() + (b"" if box is None else box.tobytes())
         entry = evaluator.within(bare, tolerance, box, progress)
         result = result_of(bare, entry)
         mesh = None if key in known else display_of(result, evaluator)

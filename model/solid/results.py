@@ -18,18 +18,18 @@ from ..document.resolve import Resolver
 from ..measuring.measure import Measures, measure
 from ..path.path import Path
 from ..worker.shown import Message
-from .display import DisplayMesh, display_mesh
+from .display import Creases, DisplayMesh, creases_at, display_mesh
 from .entry import Entry, Problem
 from .evaluate import Evaluator
 from .outlines.profiles import profile_of
+from .provenance import Occurrence, occurrences, owners_of_runs
 from .provenance import Path as OccurrencePath
-from .provenance import occurrences, owners_of_runs
 from .tessellation import DEFAULT_TOLERANCE
 
 CONVEX = (Box, Sphere, Cylinder, Cone, Halfspace, Hull)
 """Kinds that are convex whatever their numbers."""
 
-SMOOTH = (Sphere, Torus)
+ROUND = (Sphere, Torus)
 """Kinds without creases."""
 
 
@@ -150,6 +150,12 @@ def owned_faces(result: SolidResult, evaluator: Evaluator) -> OwnedFaces:
     return OwnedFaces(*arrays_of(mesh), owner, tuple(occurrence.path for occurrence in found))
 
 
+def creases_of(found: tuple[Occurrence, ...]) -> Creases:
+    """The creases of the owners: the angle that the node nearest to the leaf says, else that of the leaf's kind."""
+    asked = [next((node.crease for node in reversed(o.nodes) if node.crease is not None), None) for o in found]
+    return creases_at(asked, [isinstance(occurrence.leaf, ROUND) for occurrence in found])
+
+
 def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
     """The picture's side of an evaluated root; None where nothing of it can be shown."""
     root = result.root
@@ -162,12 +168,11 @@ def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
         triangles = surface[1].astype(np.uint64)
         runs = np.array([0, 3 * len(triangles)], np.uint64)
         mesh = Mesh64(surface[0], triangles, run_index=runs, run_original_id=np.zeros(1, np.uint32))
-        return display_mesh(mesh, np.zeros(1, dtype=np.int32), tuple(occurrence.path for occurrence in found))
+        return display_mesh(mesh, np.zeros(1, dtype=np.int32), tuple(o.path for o in found), creases=creases_of(found))
     mesh = solid.to_mesh64()
     owner = owners_of_runs(mesh, root, evaluator.originals, found)
     convex = np.array([isinstance(occurrence.leaf, CONVEX) for occurrence in found], dtype=bool)
-    smooth = np.array([isinstance(occurrence.leaf, SMOOTH) for occurrence in found], dtype=bool)
-    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found), convex, smooth)
+    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found), convex, creases_of(found))
 
 
 @dataclass(frozen=True, slots=True)

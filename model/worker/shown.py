@@ -61,8 +61,8 @@ class Part:
 
 
 def shown_key(root: Node, tolerance: float) -> bytes:
-    """What a shown solid is kept under: its value, in place, at a tolerance."""
-    return root.digest + f"{tolerance!r}".encode()
+    """What a shown solid is kept under: its value, in place, at a tolerance, with its creases."""
+    return root.digest + root.creases + f"{tolerance!r}".encode()
 
 
 def relabelled(mesh: DisplayMesh, root: Node) -> DisplayMesh:

@@ -20,6 +20,7 @@ LabelText = tuple[Floats, str, Colour]
 
 HALO = 1.2  # logical pixels around a line, on both sides
 ARROW, SPREAD = 11.0, 3.6  # length and half the width of an arrow's head
+HEAD_LENGTH, HEAD_SPREAD = 15.0, 6.5  # the same of one that shows a direction on the way
 SHORTEST = 30.0  # pixels that a line with arrows has at least
 DASH, MOST_DASHES = 12.0, 400  # pixels from dash to dash
 LETTERS = 9  # points
@@ -149,11 +150,11 @@ class Pen:
                 found += [around[[0, 1, 2]], around[[0, 2, 3]]]
                 colours += [tone] * 2
 
-    def dot(self, point: Floats, radius: float, colour: Colour, halo: Colour | None) -> None:
-        """A round spot at a point of the world."""
+    def dot(self, point: Floats, radius: float, colour: Colour, halo: Colour | None) -> Floats | None:
+        """A round spot at a point of the world; its middle (2,) in pixels, None where it cannot be seen."""
         seen = self._before_the_eye(point, point)
         if seen is None:
-            return
+            return None
         middle = project(self._camera, seen[:1], self._size)[0, :2]
         turn = np.linspace(0.0, 2.0 * np.pi, 17)
         rim = np.column_stack((np.cos(turn), np.sin(turn)))
@@ -166,6 +167,7 @@ class Pen:
                     np.array([middle, middle + size * one, middle + size * other]) for one, other in pairwise(rim)
                 ]
                 colours += [tone] * (len(rim) - 1)
+        return middle
 
     def _before_the_eye(self, a: Floats, b: Floats) -> Floats | None:
         """The part (2, 3) of a line that can be projected."""
@@ -190,6 +192,19 @@ class Pen:
             foot = tip + ARROW * back
             self._core.append(np.array([tip, foot + SPREAD * across, foot - SPREAD * across]))
             self._colours[1].append(colour)
+
+    def head(self, ends: Floats, share: float, colour: Colour) -> None:
+        """An arrow's head on a line between pixels (2, 2), with its point at a share of the way."""
+        along = ends[1] - ends[0]
+        length = float(np.linalg.norm(along))
+        if length < 1e-6:
+            return
+        way = along / length
+        across = np.array([-way[1], way[0]])
+        tip = ends[0] + share * along + HEAD_LENGTH / 2 * way
+        foot = tip - HEAD_LENGTH * way
+        self._core.append(np.array([tip, foot + HEAD_SPREAD * across, foot - HEAD_SPREAD * across]))
+        self._colours[1].append(colour)
 
     def fill(self, data: vtkPolyData) -> None:
         """All of it as triangles of the world; the halos a little behind the lines."""

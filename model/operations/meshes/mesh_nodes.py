@@ -176,7 +176,8 @@ def with_mesh(document: Document, node_id: str, vertices: Floats, triangles: NDA
         node_id,
         lambda node: ImportedMesh(
             id=node.id, name=node.name, colour=node.colour, visible=node.visible, note=node.note,
-            material=node.material, mapping=node.mapping, placement=node.placement, asset=asset, file_format=FORMAT,
+            material=node.material, mapping=node.mapping, crease=node.crease, placement=node.placement, asset=asset,
+            file_format=FORMAT,
         ),
     )  # fmt: skip
 

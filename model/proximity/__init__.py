@@ -1,0 +1,1 @@
+"""How near surfaces come to each other and to points: distances with their points, inside and outside, clearances."""

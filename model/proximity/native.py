@@ -1,0 +1,80 @@
+"""The compiled half of this folder, partition/proximity.cpp: the boxes of triangles, and what is asked of them."""
+
+from __future__ import annotations
+
+import ctypes
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..partition.native import available, library
+
+Floats = NDArray[np.float64]
+Numbers = NDArray[np.int64]
+
+
+class _View(ctypes.Structure):
+    _fields_ = (
+        *((name, ctypes.c_void_p) for name in ("triangles", "order", "boxes", "links")),
+        ("nodes", ctypes.c_int64),
+    )
+
+
+class Tree:
+    """Of triangles (n, 3, 3), contiguous. Raises MemoryError, and ValueError for coordinates that are no numbers."""
+
+    def __init__(self, triangles: Floats) -> None:
+        if not np.isfinite(triangles).all():
+            raise ValueError("a triangle has a corner that is not a finite number")
+        count = len(triangles)
+        order = np.empty(count, np.int32)
+        boxes, links = np.empty((2 * count, 6)), np.empty((2 * count, 2), np.int32)
+        nodes = library().proximity_build(
+            triangles.ctypes.data, count, order.ctypes.data, boxes.ctypes.data, links.ctypes.data
+        )
+        if nodes < 0:
+            raise MemoryError("there is not enough memory for the boxes of a surface")
+        self._held = triangles, order, boxes, links
+        self.view = ctypes.byref(_View(*(array.ctypes.data for array in self._held), nodes))
+
+
+def distance(one: Tree, other: Tree, limit: float) -> tuple[float, Floats, Floats, tuple[int, int]]:
+    """See `boxes.Gap`."""
+    found, faces = np.empty(7), np.empty(2, np.int32)
+    _check(library().proximity_distance(one.view, other.view, limit, found.ctypes.data, faces.ctypes.data))
+    return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
+
+
+def nearest(tree: Tree, points: Floats, limit: float) -> tuple[Floats, Floats, Numbers]:
+    """See `boxes.Nearest`; points (n, 3) are contiguous."""
+    count = len(points)
+    distances, places, faces = np.empty(count), np.empty((count, 3)), np.empty(count, np.int32)
+    _check(
+        library().proximity_nearest(
+            tree.view, points.ctypes.data, count, limit, distances.ctypes.data, places.ctypes.data, faces.ctypes.data
+        )
+    )
+    return distances, places, faces.astype(np.int64)
+
+
+def windings(tree: Tree, points: Floats) -> Numbers:
+    """See `boxes.BoxTree.windings`; points (n, 3) are contiguous."""
+    found = np.empty(len(points), np.int32)
+    _check(library().proximity_windings(tree.view, points.ctypes.data, len(points), found.ctypes.data))
+    return found.astype(np.int64)
+
+
+def pieces(triangles: NDArray[np.integer], vertices: int) -> Numbers:
+    """(n,) for each of `vertices` the least vertex of its piece of triangles (m, 3), -1 where none has it. The corners
+    must be among the vertices."""
+    corners, labels = np.ascontiguousarray(triangles, np.int32), np.empty(vertices, np.int32)
+    library().proximity_pieces(corners.ctypes.data, len(corners), vertices, labels.ctypes.data)
+    return labels.astype(np.int64)
+
+
+def _check(status: int) -> None:
+    if status:
+        raise MemoryError("there is not enough memory for what surfaces are asked")
+
+
+__all__ = ["Tree", "available", "distance", "nearest", "pieces", "windings"]
