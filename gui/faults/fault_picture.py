@@ -30,7 +30,7 @@ Arrays = tuple["NDArray[np.float64]", "NDArray[np.integer]"]
 
 class FaultPicture(Tool):
     """`left` tells that Escape was pressed in the picture while a fault was shown; `began` and `ended` that one is
-    shown, and that none is any more."""
+    shown and that none is any more."""
 
     left = Signal()
     began = Signal()

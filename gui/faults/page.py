@@ -196,9 +196,7 @@ class FaultsPage(QWidget):
 
     def open_repairs(self) -> None:
         """The menu of repairs, at the button."""
-        menu = self.repair.menu()
-        if menu is not None and self.repair.isEnabled():
-            menu.popup(self.repair.mapToGlobal(self.repair.rect().bottomLeft()))
+        self.repair.menu().popup(self.repair.mapToGlobal(self.repair.rect().bottomLeft()))
 
     def _type_longest(self, text: str) -> None:
         try:
