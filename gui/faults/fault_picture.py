@@ -26,6 +26,7 @@ AROUND, CLOSE = 0.75, 0.55  # times the size of a fault: what is seen on either 
 FAR, NEAR = 0.06, 1e-5  # of the picture's solids: the least that is seen then
 GAPS = 4.0  # times the gap between things, likewise
 Arrays = tuple["NDArray[np.float64]", "NDArray[np.integer]"]
+"""Vertices (n, 3) in the world and triangles (m, 3)."""
 
 
 class FaultPicture(Tool):
@@ -102,7 +103,7 @@ class FaultPicture(Tool):
         viewer.needs_render = True
         self._viewport.refresh()
 
-    def _shape(self, row: FindingRow) -> Arrays:
+    def _shape(self, row: FindingRow) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The edges (k, 2, 3) and faces (m, 3, 3) that a finding is about, as far as they are known already."""
         from ...model.mesh.faults.drawn import drawn
 

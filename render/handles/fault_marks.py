@@ -125,9 +125,10 @@ class FaultMarks:
         way = np.array([right, up]) / np.sqrt(2.0)
         begin = middle + radius * way
         end = begin + np.array([right * AWAY[0], up * AWAY[1]])
-        pen.stroke(on_target_plane(camera, *begin, size), on_target_plane(camera, *end, size), LEADER, ink, ground)
+        a, b, spot = (on_target_plane(camera, float(x), float(y), size) for x, y in (begin, end, middle))
+        pen.stroke(a, b, LEADER, ink, ground)
         if not radius:
-            pen.dot(on_target_plane(camera, *middle, size), 1.5 * RING, ink, ground)
+            pen.dot(spot, 1.5 * RING, ink, ground)
         pen.fill(self._drawn)
         words = end + np.array([right * LETTER * len(chosen.words) / 2.0, 0.0])
         self._labels.show([(words, chosen.words, ink_of(self._look))], ground, size, scale)
