@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
+from .curves.contour_lines import CurveLines, has_curves
 from .look import Look, mixed, palette, rgb
 from .outline import Adjacency
 from .polydata import cells_of, lines_of, places_in, set_cell_colours, surface_of, vtk_array
@@ -52,6 +53,8 @@ class SolidActors:
             lines.GetMapper().ScalarVisibilityOff()
             lines.PickableOff()
         self._adjacency: Adjacency | None = None
+        self._curves: CurveLines | None = None
+        self._shows_curves = False
         self._outlined: NDArray[np.bool_] = np.zeros(len(mesh.owners), bool)
         self._palette: NDArray[np.uint8] | None = None
         self._worn: object = None
@@ -107,6 +110,7 @@ class SolidActors:
             unlit(self.faces)
             self.faces.GetProperty().SetRepresentationToSurface()
             self.faces.GetProperty().SetOpacity(SHEET if style in ("shaded", "edges") else 0.0)
+        self._show_curves(style == "wireframe" and has_curves(self.mesh))
         self.edges.SetVisibility(self.faded or style != "shaded" or self.mesh.sheet)
         self.silhouette.SetVisibility((self.faded or style in ("wireframe", "hidden-line")) and not self.mesh.sheet)
         # VTK offsets lines by 4 units, enough to shine through thin walls; in wireframe they lie over all triangles.
@@ -149,13 +153,29 @@ class SolidActors:
             self._outlined = selected
             self._outline.SetLines(cells_of(self.mesh.edges[self._features_of(selected)]))
 
-    def turn_silhouette(self, camera: "Camera") -> None:
-        """Find the silhouette anew; costs about as much as drawing the lines."""
+    def turn_silhouette(self, camera: "Camera", pixel: float) -> None:
+        """Find the silhouette anew; costs about as much as drawing the lines. Curves are as fine as `pixel` mm asks."""
         if self.mesh.sheet:
             return
         eye = np.asarray(camera.position)
         towards = eye - camera.target if camera.parallel else eye
+        if self._shows_curves:
+            assert self._curves is not None
+            self._curves.turn(towards, camera.parallel, pixel)
+            return
         self._silhouette.SetLines(cells_of(self.adjacency.silhouette(towards, camera.parallel)))
+
+    def _show_curves(self, shown: bool) -> None:
+        """Draw edges and silhouette as the curves that they stand for, or as the mesh has them."""
+        if shown == self._shows_curves:
+            return
+        self._shows_curves = shown
+        if shown and self._curves is None:
+            self._curves = CurveLines(self.mesh)
+        edges, silhouette = (self.features, self._silhouette) if self._curves is None or not shown else (
+            self._curves.edges, self._curves.silhouette)  # fmt: skip
+        for actor, data in ((self.edges, edges), (self.silhouette, silhouette)):
+            actor.GetMapper().SetInputDataObject(data)
 
     def _features_of(self, owners: NDArray[np.bool_]) -> NDArray[np.bool_]:
         if not owners.any():

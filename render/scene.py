@@ -245,12 +245,13 @@ class Scene:
         faces = [entry.faces for entry in self._solids.values() if not entry.mesh.sheet]
         self.surfaces.shadows.update(self.surfaces.lights, faces, self._solid_bounds, camera)
         self.surfaces.turn((*self.painter.actors, *faces), camera)
+        window = self.renderer.GetRenderWindow()
+        height = 1 if window is None else max(window.GetSize()[1], 1)
+        pixel = 2.0 * camera.half_height / height * self.line_scale
         for entry in self._solids.values():
             if entry.faded or self.style in ("wireframe", "hidden-line"):
-                entry.turn_silhouette(camera)
-        window = self.renderer.GetRenderWindow()
+                entry.turn_silhouette(camera, pixel)
         if window is not None:
-            pixel = 2.0 * camera.half_height / max(window.GetSize()[1], 1) * self.line_scale
             self.sections.before_render(
                 self.style, self.look, self._ground, self.selection, self.hover, self._line_width, pixel
             )

@@ -50,6 +50,15 @@ class RoundSurfaces:
         """(n,) the functions, and (n, 3) how they change in the world; outwards from the axis or the middle."""
         return self._evaluated(places, which, True)
 
+    def radii(self, places: Floats, which: Numbers) -> Floats:
+        """(n,) how strongly the surfaces bend: the radius of a cone at places (n, 3), of a torus that of its tube."""
+        maps = self.maps[which]
+        own = np.einsum("nij,nj->ni", maps[:, :2, :3], places) + maps[:, :2, 3]
+        first, second = self.numbers[which].T
+        kind = self.kind[which]
+        radius = np.where(kind == CONE, np.hypot(own[:, 0], own[:, 1]), np.where(kind == TORUS, second, first))
+        return np.maximum(radius, TINY)
+
     def _evaluated(self, places: Floats, which: Numbers, wanted: bool) -> tuple[Floats, Floats]:
         maps = self.maps[which]
         own = np.einsum("nij,nj->ni", maps[:, :, :3], places) + maps[:, :, 3]
@@ -69,7 +78,7 @@ class RoundSurfaces:
         tube = np.hypot(beside, height)
         value = np.where(ring, tube - second, value)
         if not wanted:
-            return value, np.zeros((0, 3))
+            return value, own[:0]
         far, tube = np.maximum(far, TINY), np.maximum(tube, TINY)
         out = np.where(ball, around / far, np.where(cone, second, np.where(ring, beside / tube, out)))
         up = np.where(ball, height / far, np.where(cone, -first, np.where(ring, height / tube, up)))

@@ -14,6 +14,8 @@ from .provenance import Path
 if TYPE_CHECKING:
     from manifold3d import Mesh64
 
+    from ..pipeline.round_surfaces import RoundSurfaces
+
 SMOOTH = np.cos(np.radians(35))
 """Facets that meet at less than this share a normal."""
 COARSE = np.cos(np.radians(70))
@@ -71,6 +73,8 @@ class DisplayMesh:
     """Whether it is an outline that stands by itself, which encloses nothing (see sheet.py)."""
     creases: Creases | None = None
     """What the normals and the edges went by; None: no owner says anything."""
+    round: RoundSurfaces | None = None
+    """The curved surfaces that the facets stand for, as far as the leaves tell; None: nobody has asked."""
 
 
 def display_mesh(
@@ -79,6 +83,7 @@ def display_mesh(
     owners: tuple[Path, ...] = (),
     convex: NDArray[np.bool_] | None = None,
     creases: Creases | None = None,
+    round_: RoundSurfaces | None = None,
 ) -> DisplayMesh:
     """The picture's side of a result of manifold3d. `owner_of_run` as from provenance.owners_of_runs; `convex` (o,)
     where it is known."""
@@ -135,6 +140,7 @@ def display_mesh(
         corners=triangles.astype(np.int32),
         convex=convex,
         creases=creases,
+        round=round_,
     )
 
 

@@ -17,6 +17,7 @@ from ..document.primitives import Box, Cone, Cylinder, Halfspace, ImportedMesh, 
 from ..document.resolve import Resolver
 from ..measuring.measure import Measures, measure
 from ..path.path import Path
+from ..pipeline.round_surfaces import round_surfaces
 from ..worker.shown import Message
 from .display import Creases, DisplayMesh, creases_at, display_mesh
 from .entry import Entry, Problem
@@ -172,7 +173,8 @@ def display_of(result: SolidResult, evaluator: Evaluator) -> DisplayMesh | None:
     mesh = solid.to_mesh64()
     owner = owners_of_runs(mesh, root, evaluator.originals, found)
     convex = np.array([isinstance(occurrence.leaf, CONVEX) for occurrence in found], dtype=bool)
-    return display_mesh(mesh, owner, tuple(occurrence.path for occurrence in found), convex, creases_of(found))
+    paths = tuple(occurrence.path for occurrence in found)
+    return display_mesh(mesh, owner, paths, convex, creases_of(found), round_surfaces(found))
 
 
 @dataclass(frozen=True, slots=True)
