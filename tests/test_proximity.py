@@ -48,7 +48,7 @@ def test_a_sphere_within_another_is_apart_from_it_by_its_wall():
     assert 2 - 3 * (1 - np.cos(np.pi / 12)) < found < 2  # chords lie a little within
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(st.integers(0, 10**6))
 def test_the_gap_is_that_of_the_nearest_pair_of_triangles(seed):
     rng = np.random.default_rng(seed)
@@ -62,7 +62,7 @@ def test_the_gap_is_that_of_the_nearest_pair_of_triangles(seed):
         assert foot[0] == pytest.approx(point, abs=1e-12)
 
 
-@settings(deadline=None, max_examples=40)
+@settings(deadline=None, max_examples=20)
 @given(st.integers(0, 10**6))
 def test_nearest_points_are_those_of_all_triangles(seed):
     rng = np.random.default_rng(seed)
