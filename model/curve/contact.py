@@ -75,12 +75,24 @@ def crossings(a: Curve, b: Curve, start: Floats, width: Floats, slack: float) ->
         found = found - np.clip(step, -2.0 * width, 2.0 * width)
         if (np.abs(step) <= np.finfo(float).eps).all():
             break
+    if len(start):  # at a small angle rounding of the points moves the parameters by many times as much
+        p, q = a.derivatives(found[:, 0], 1), b.derivatives(found[:, 1], 1)
+        left = (_extended(a, found[:, 0]) - _extended(b, found[:, 1])).astype(float)
+        found = found - np.clip(_least(np.stack([p[1], -q[1]], -1), left), -2.0 * width, 2.0 * width)
     rows, good = _accepted(a, b, found, start, width, slack, 0.0)
     flat = np.flatnonzero(good)[touching(a, b, rows[good, :2], 10.0 * PARALLEL)]
     if len(flat):  # a contact that pieces too short for it have parted
         better, fits = contacts(a, b, rows[flat, :2], np.full((len(flat), 2), 10.0 * PARALLEL), slack)
         rows[flat[fits]] = better[fits]
     return rows, good
+
+
+def _extended(curve: Curve, t: Floats) -> NDArray[np.longdouble]:
+    """(k, d) points at parameters t (k,) by de Casteljau, in the longest numbers that the machine has."""
+    above = np.repeat(curve.above.astype(np.longdouble)[None], len(t), axis=0)
+    for _ in range(curve.degree):
+        above = above[:, :-1] + t[:, None, None] * (above[:, 1:] - above[:, :-1])
+    return above[:, 0] if curve.weights is None else above[:, 0, :-1] / above[:, 0, -1:]
 
 
 def contacts(a: Curve, b: Curve, start: Floats, width: Floats, slack: float) -> tuple[Floats, Flags]:
