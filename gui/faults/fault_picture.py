@@ -102,7 +102,7 @@ class FaultPicture(Tool):
         viewer.needs_render = True
         self._viewport.refresh()
 
-    def _shape(self, row: FindingRow) -> Arrays:
+    def _shape(self, row: FindingRow) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """The edges (k, 2, 3) and faces (m, 3, 3) that a finding is about, as far as they are known already."""
         from ...model.mesh.faults.drawn import drawn
 
