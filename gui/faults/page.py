@@ -182,6 +182,8 @@ class FaultsPage(QWidget):
         self.table.findings.set_rows(rows)
         self.table.setColumnHidden(GAP, not any(row.finding.gap for row in rows))
         self.table.setColumnHidden(SOLID, len({id(row.report) for row in rows}) < 2)
+        if not rows and self.table.hasFocus():
+            self.check.setFocus()  # else Qt would pick a field anywhere in the window
         self.table.setVisible(bool(rows))
         self.kind.setVisible(bool(rows))
         self.copy.setEnabled(bool(rows))

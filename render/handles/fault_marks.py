@@ -133,7 +133,8 @@ class FaultMarks:
         if not radius:
             pen.dot(at(middle), 1.5 * RING, ink, ground)
         pen.fill(self._drawn)
-        words = end + np.array([right * LETTER * len(chosen.words) / 2.0, 0.0])
+        half = LETTER * len(chosen.words) / 2.0
+        words = np.array([max(min(end[0] + right * half, size[0] - half), half), end[1]])
         self._labels.show([(words, chosen.words, ink_of(self._look))], ground, size, scale)
 
     @property
