@@ -140,6 +140,7 @@ def test_a_row_brings_the_camera_to_its_place_and_escape_takes_the_marks_away(di
 def test_a_repair_is_one_step_that_closes_the_solid_and_can_be_undone_and_replayed(dirty):
     window, session = dirty.window, dirty.session
     before, steps = session.document, len(session.log)
+    window.faults.page.table.setFocus()
     window.actions_.run("repair_faults")
     settled(dirty)
     (solid,) = dirty.document.solids
@@ -147,6 +148,7 @@ def test_a_repair_is_one_step_that_closes_the_solid_and_can_be_undone_and_replay
     assert shown.measures.volume == pytest.approx(SIDE**3, rel=1e-4)
     assert solid.id == before.solids[0].id and solid.name == "bracket"
     text = window.faults.page.report.words.text()
+    assert window.faults.page.isAncestorOf(window.focusWidget())
     assert "not closed" in text and "Undo the repair" in text and "Nothing found within" in text
     assert len(session.log) == steps + 1 and same_document(replayed(session.log, Document()), session.document)
     window.faults.page.report.linked.emit("undo")

@@ -61,8 +61,10 @@ class FindingRow:
     def words(self) -> str:
         """What it is and how large, for the picture."""
         size, gap = self.finding.size, self.finding.gap
+        if self.kind == (True, "crossing") or not (size or gap):  # two lines that cross have no size there
+            return self.title
         told = f"{length(gap)} mm apart" if self.near else f"{length(size)} mm"
-        return f"{self.title}, {told}".replace("\u202f", " ") if size or gap else self.title
+        return f"{self.title}, {told}".replace("\u202f", " ")
 
     @property
     def near(self) -> bool:

@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QAbstractItemView, QHeaderView, QMenu, QTableView,
 
 from .finding_rows import GAP, KIND, PLACE, SIZE, SOLID, TITLES, FindingModel, FindingRow
 
-WIDTHS = {SOLID: 100, SIZE: 86, GAP: 86, PLACE: 170}
+WIDTHS = {SOLID: 84, SIZE: 78, GAP: 78}
 
 
 class FindingTable(QTableView):
@@ -41,7 +41,8 @@ class FindingTable(QTableView):
         header = self.horizontalHeader()
         header.setDefaultAlignment(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
         header.setHighlightSections(False)
-        header.setSectionResizeMode(KIND, QHeaderView.ResizeMode.Stretch)
+        for column in (KIND, PLACE):
+            header.setSectionResizeMode(column, QHeaderView.ResizeMode.Stretch)
         header.setMinimumSectionSize(60)
         for column, width in WIDTHS.items():
             self.setColumnWidth(column, width)

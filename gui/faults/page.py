@@ -28,7 +28,7 @@ from ..panels.number_field import NumberField, Steps
 from ..panels.property_edit import sentence
 from .checked import Kind, counts_by_kind
 from .checks import millimetres_from
-from .finding_rows import SOLID, rows_of
+from .finding_rows import GAP, SOLID, rows_of
 from .finding_table import FindingTable
 from .report_view import ReportView
 
@@ -106,6 +106,7 @@ class FaultsPage(QWidget):
         self.working = QWidget(self)
         self.doing = QLabel(self.working)
         self.doing.setProperty("muted", True)
+        self.doing.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # long words widen nothing
         self.progress = QProgressBar(self.working)
         self.progress.setTextVisible(False)
         self.progress.setAccessibleName("Progress")
@@ -114,8 +115,8 @@ class FaultsPage(QWidget):
         line = QHBoxLayout(self.working)
         line.setContentsMargins(10, 0, 6, 4)
         line.setSpacing(8)
-        line.addWidget(self.doing)
-        line.addWidget(self.progress, 1)
+        line.addWidget(self.doing, 3)
+        line.addWidget(self.progress, 2)
         line.addWidget(self.cancel)
         self.working.hide()
 
@@ -179,7 +180,10 @@ class FaultsPage(QWidget):
         self.kind.blockSignals(False)
         self.table.findings.set_kind(self.listed_kind)
         self.table.findings.set_rows(rows)
+        self.table.setColumnHidden(GAP, not any(row.finding.gap for row in rows))
         self.table.setColumnHidden(SOLID, len({id(row.report) for row in rows}) < 2)
+        if not rows and self.table.hasFocus():
+            self.check.setFocus()  # else Qt would pick a field anywhere in the window
         self.table.setVisible(bool(rows))
         self.kind.setVisible(bool(rows))
         self.copy.setEnabled(bool(rows))

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
 
 SOUND = ("#14703a", "#5fd38d")
 """The colour of what is in order, on light ground and on dark."""
+SHORT = 20  # letters of a count's name that stays on one line
 MOST = 60  # solids that have a line each
 
 
@@ -63,9 +64,9 @@ class ReportView(QScrollArea):
             self._write()
 
     def _write(self) -> None:
-        parts = [mended_words(one) for one in self._mended]
+        parts = [mended_words(one, self._can_undo and one is self._mended[0]) for one in self._mended]
         if parts:
-            parts.append(_undo(self._can_undo))
+            parts.append("<hr>")
         if self._reports:
             parts.append(summary(self._reports, self._tolerance))
         self.words.setText("".join(parts))
@@ -107,26 +108,25 @@ def _convert(report: NodeFaults) -> str:
     )
 
 
-def mended_words(mended: Mended) -> str:
+def mended_words(mended: Mended, can_undo: bool = False) -> str:
     """As rich text: what a repair did to a solid, what is worse now, and the counts before and after."""
     colours = colours_now()
     words = ", ".join(mended.words) or "there was nothing that these repairs mend"
-    text = f"<p><b>{escape(mended.name)}</b>: {escape(words)}.</p>"
+    undo = ' <a href="undo">Undo the repair</a>' if can_undo else ""
+    text = f"<p><b>{escape(mended.name)}</b>: {escape(words)}.{undo}</p>"
     if mended.worse:
         worse = "; ".join(mended.worse)
         text += f'<p style="color:{colours.error}">Worse now: {escape(worse)}.</p>'
     if not mended.counts:
         return text
-    head = f'<tr style="color:{colours.muted}"><td></td><td align="right">before</td><td align="right">now</td></tr>'
+    titles = '<td width="60%"></td><td align="right">before</td><td align="right">now</td>'
+    head = f'<tr style="color:{colours.muted}">{titles}</tr>'
     rows = ""
     for label, before, after, is_worse in mended.counts:
+        name = escape(label).replace(" ", "&nbsp;") if len(label) < SHORT else escape(label)
         ink = colours.error if is_worse else colours.text if after.strip("0") else good_ink()
         rows += (
-            f'<tr><td>{escape(label)}</td><td align="right" style="padding-left:14px">{escape(before)}</td>'
+            f'<tr><td>{name}</td><td align="right" style="padding-left:14px">{escape(before)}</td>'
             f'<td align="right" style="padding-left:14px; color:{ink}">{escape(after)}</td></tr>'
         )
     return f'{text}<table cellspacing="0" cellpadding="1" width="100%">{head}{rows}</table>'
-
-
-def _undo(can_undo: bool) -> str:
-    return '<p><a href="undo">Undo the repair</a></p><hr>' if can_undo else "<hr>"

@@ -110,6 +110,10 @@ class FaultMarks:
             self._labels.hide()
             return
         pen = Pen(camera, size)
+
+        def at(pixel: Floats) -> Floats:
+            return on_target_plane(camera, float(pixel[0]), float(pixel[1]), size)
+
         ink, ground = self._ink, rgb(self._look.plain_background)
         depth = 1.0 if camera.parallel else float(pixel[2]) / camera.distance
         reach = 0.25 * chosen.size / (camera.half_height * max(depth, 1e-12)) * size[1]
@@ -119,18 +123,18 @@ class FaultMarks:
             radius = reach + ROOM
             turn = np.linspace(0.0, 2.0 * np.pi, 41)
             rim = middle + radius * np.column_stack((np.cos(turn), np.sin(turn)))
-            pen.polyline(np.array([on_target_plane(camera, x, y, size) for x, y in rim]), RING, ink, ground)
+            pen.polyline(np.array([at(pixel) for pixel in rim]), RING, ink, ground)
         right = -1.0 if middle[0] > 0.6 * size[0] else 1.0
         up = 1.0 if middle[1] < 0.2 * size[1] else -1.0
         way = np.array([right, up]) / np.sqrt(2.0)
         begin = middle + radius * way
         end = begin + np.array([right * AWAY[0], up * AWAY[1]])
-        a, b, spot = (on_target_plane(camera, float(x), float(y), size) for x, y in (begin, end, middle))
-        pen.stroke(a, b, LEADER, ink, ground)
+        pen.stroke(at(begin), at(end), LEADER, ink, ground)
         if not radius:
-            pen.dot(spot, 1.5 * RING, ink, ground)
+            pen.dot(at(middle), 1.5 * RING, ink, ground)
         pen.fill(self._drawn)
-        words = end + np.array([right * LETTER * len(chosen.words) / 2.0, 0.0])
+        half = LETTER * len(chosen.words) / 2.0
+        words = np.array([max(min(end[0] + right * half, size[0] - half), half), end[1]])
         self._labels.show([(words, chosen.words, ink_of(self._look))], ground, size, scale)
 
     @property
