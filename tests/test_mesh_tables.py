@@ -133,7 +133,7 @@ def test_scripts_get_lists_winged_edge_and_tables():
     assert mesh_table(part, "faces", triangles=True).count == len(inspected(part).triangles)
     with pytest.raises(Refusal, match="no table is called 'edge'"):
         mesh_table(part, "edge")
-    with pytest.raises(Refusal, match="one solid is looked into"):
+    with pytest.raises(Refusal, match="one solid or outline is looked into"):
         from solidtree.model.script import document_of
 
         inspected(document_of(box(1), box(1).at(5)))

@@ -297,7 +297,7 @@ def check_changes(driver, inspector):
     driver.session.do("delete", [root.id for root in driver.document.roots], label="Delete")
     driver.settle()
     driver.qtbot.waitUntil(lambda: inspector.source.settled and inspector.mesh is None)
-    assert "Add one" in inspector.page.empty.text() and not inspector.page.pages.isVisible()
+    assert "Add a solid" in inspector.page.empty.text() and not inspector.page.pages.isVisible()
 
 
 def check_costs(driver, inspector):

@@ -50,15 +50,15 @@ class MeshSource(QObject):
 
     @property
     def solids(self) -> dict[str, str]:
-        """The names of the solids in the picture, by their ids."""
+        """The names of the solids and of the outlines that fill something in the picture, by their ids."""
         meshes = self._meshes
-        return {root.id: root.label for root in self._window.session.document.solids if root.id in meshes}
+        return {root.id: root.label for root in self._window.session.document.standing if root.id in meshes}
 
     @property
     def _meshes(self) -> dict[str, DisplayMesh]:
         viewer = self._window.viewport.viewer
-        shown = {} if viewer is None else viewer.scene.solid_meshes
-        return {root: mesh for root, mesh in shown.items() if len(mesh.corners)}
+        shown = {} if viewer is None else viewer.scene.meshes
+        return {root: mesh for root, mesh in shown.items() if len(mesh.corners) > mesh.sheet}
 
     @property
     def up_to_date(self) -> bool:
@@ -109,7 +109,10 @@ class MeshSource(QObject):
             self.solid = next(iter(meshes), "")
         mesh = meshes.get(self.solid)
         if mesh is None:
-            self._set(None, "No solid is in the picture. Add one, and its vertices, edges and faces stand here.")
+            self._set(
+                None,
+                "Nothing is in the picture. Add a solid or a closed outline: its vertices, edges and faces stand here.",
+            )
             return
         if self._made is not None and self._made[0] is mesh and self._made[1] == self.polygons:
             self.labels = self._names(mesh)

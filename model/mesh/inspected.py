@@ -88,17 +88,23 @@ class InspectedMesh:
 
 
 def inspect_mesh(mesh: DisplayMesh, polygons: bool = True) -> InspectedMesh:
-    """The structures of a solid's mesh, its faces as polygons with holes or as the triangles they are drawn by."""
-    triangles = mesh.corners.astype(np.int64)
+    """The structures of a solid's mesh, its faces as polygons with holes or as the triangles they are drawn by.
+
+    Of an outline that stands by itself, what it fills: a face with its holes for each part.
+    """
+    used = slice(0, len(mesh.corners) - mesh.sheet)  # the last triangle of a sheet, and its vertex, are none of it
+    vertices = mesh.vertices[: len(mesh.vertices) - mesh.sheet]
+    triangles, facets, owner = mesh.corners[used].astype(np.int64), mesh.facet[used], mesh.owner[used]
     if polygons:
-        told = len(triangles) == 0 or int(mesh.facet.max()) + 1 < len(triangles) or _paired(triangles)
-        facet = mesh.facet if told else flat_facets(mesh.vertices, triangles)
-        lists, triangle_face = faces_of_facets(mesh.vertices, triangles, facet)
+        told = len(triangles) == 0 or mesh.sheet or int(facets.max()) + 1 < len(triangles) or _paired(triangles)
+        lists, triangle_face = faces_of_facets(
+            vertices, triangles, facets if told else flat_facets(vertices, triangles)
+        )
     else:
-        lists, triangle_face = of_triangles(mesh.vertices, triangles), np.arange(len(triangles))
+        lists, triangle_face = of_triangles(vertices, triangles), np.arange(len(triangles))
     winged = winged_edge(lists)
     maker = np.full(lists.face_count, -1)
-    maker[triangle_face[::-1]] = mesh.owner[::-1]
+    maker[triangle_face[::-1]] = owner[::-1]
     maker[maker >= len(mesh.owners)] = -1
     ends = lists.vertices[winged.table[:, [START, END]]]
     areas = np.zeros((lists.face_count, 3))

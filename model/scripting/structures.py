@@ -1,4 +1,4 @@
-"""What scripts do with the structures of a solid's mesh: its lists, its winged edge, its tables."""
+"""What scripts do with the structures of a mesh, of a solid or of what an outline fills: lists, winged edge, tables."""
 
 from __future__ import annotations
 
@@ -20,16 +20,28 @@ if TYPE_CHECKING:
 def inspected(solid: Node | Document, triangles: bool = False, tolerance: float = 0.05) -> InspectedMesh:
     """A solid's mesh with all that is known of it: `lists`, `winged`, `bend` and `length` of its edges, `area` and
     `maker` of its faces, `topology`; see solidtree.model.mesh.inspected. Its faces are polygons with holes, or
-    `triangles`. solidtree.model.mesh.selecting has the functions that pick elements out. Raises Refusal.
+    `triangles`. Of an outline it is what that fills. solidtree.model.mesh.selecting has the functions that pick
+    elements out. Raises Refusal.
 
     >>> inspected(box(10)).topology.euler
     2
+    >>> washer = path("M 0 0 H 9 V 9 H 0 Z M 3 3 V 6 H 6 V 3 Z")
+    >>> inspected(washer).area.tolist(), inspected(washer, triangles=True).lists.face_count
+    ([72.0], 8)
     """
     from ..mesh.inspected import inspect_mesh
 
     evaluation = evaluate(solid, tolerance=tolerance)
-    if len(evaluation.solids) != 1:
-        raise Refusal(f"one solid is looked into at a time, and there are {len(evaluation.solids)}")
+    there = len(evaluation.solids) + len(evaluation.profiles)
+    if there != 1:
+        raise Refusal(f"one solid or outline is looked into at a time, and there are {there}")
+    if evaluation.profiles:
+        from ..solid.outlines.sheet import sheet_of
+
+        mesh = sheet_of(evaluation.profiles[0].root, tolerance)
+        if len(mesh.corners) < 2:
+            raise Refusal(f"“{evaluation.profiles[0].root.label}” fills nothing: it is open, or leaves its plane")
+        return inspect_mesh(mesh, not triangles)
     mesh = evaluation.display(evaluation.solids[0])
     if mesh is None:
         raise Refusal(next(message.message for message in evaluation.solids[0].messages if message.error))
