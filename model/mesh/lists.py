@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from .pieces import pieces
+
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 
@@ -192,18 +194,9 @@ def _twins(starts: Numbers, ends: Numbers, group: NDArray) -> Numbers:
 
 
 def _pieces(count: int, twin: Numbers) -> Numbers:
-    """(t,) which triangles hang together by twins."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
+    """(t,) which triangles hang together by twins, numbered by their first triangle."""
     sides = np.flatnonzero(twin >= 0)
-    graph = coo_matrix((np.ones(len(sides), np.int8), (sides // 3, twin[sides] // 3)), (count, count))
-    _, piece = connected_components(graph, directed=False)
-    # Pieces are numbered by their first triangle.
-    _, first, which = np.unique(piece, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    return rank[which]
+    return pieces(sides // 3, twin[sides] // 3, count)
 
 
 def _around(sides: Numbers, twin: Numbers) -> Numbers:
@@ -219,18 +212,11 @@ def _around(sides: Numbers, twin: Numbers) -> Numbers:
 
 def _chains(following: Numbers) -> tuple[Numbers, Numbers]:
     """The cycles of a permutation one after another, and where each begins; by their least members."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     count = len(following)
     if not count:
         return np.zeros(0, np.int64), np.zeros(1, np.int64)
-    graph = coo_matrix((np.ones(count, np.int8), (np.arange(count), following)), (count, count))
-    number, label = connected_components(graph, directed=False)
-    first = np.full(number, count)
-    np.minimum.at(first, label, np.arange(count))
-    rank = np.empty(number, np.int64)
-    rank[np.argsort(first)] = np.arange(number)
+    label = pieces(np.arange(count), following, count)
+    first = np.unique(label, return_index=True)[1]
     # How far each is from the first of its cycle, by doubling: what is nearer than `step` is known.
     jump = np.empty(count, np.int64)
     jump[following] = np.arange(count)
@@ -241,8 +227,8 @@ def _chains(following: Numbers) -> tuple[Numbers, Numbers]:
         distance[fresh] = distance[jump[fresh]] + step
         known |= fresh
         jump, step = jump[jump], 2 * step
-    order = np.lexsort((distance, rank[label]))
-    sizes = np.bincount(rank[label], minlength=number)
+    order = np.lexsort((distance, label))
+    sizes = np.bincount(label, minlength=len(first))
     return order, np.concatenate(([0], np.cumsum(sizes))).astype(np.int64)
 
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from .inspected import FLAT, InspectedMesh
 from .lists import Numbers
+from .pieces import pieces
 from .walks import chain
 from .winged import END, LEFT, LEFT_AFTER, RIGHT, START, WingedEdge
 
@@ -105,15 +106,10 @@ def faces_of_area(mesh: InspectedMesh, least: float = 0.0, most: float = np.inf)
 
 def connected_faces(mesh: InspectedMesh, faces: Flags, most: float = 180.0) -> Flags:
     """Faces that hang together with those of a set by edges at which the surface turns by `most` degrees at most."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
     with np.errstate(invalid="ignore"):
         crossed = np.flatnonzero(np.abs(mesh.bend) <= most + FLAT)
     sides = mesh.winged.table[crossed][:, [LEFT, RIGHT]]
-    count = mesh.lists.face_count
-    graph = coo_matrix((np.ones(len(sides), np.int8), (sides[:, 0], sides[:, 1])), (count, count))
-    _, label = connected_components(graph, directed=False)
+    label = pieces(sides[:, 0], sides[:, 1], mesh.lists.face_count)
     reached = np.zeros(int(label.max(initial=-1)) + 1, bool)
     reached[label[faces]] = True
     return reached[label]

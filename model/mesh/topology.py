@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .lists import Numbers
+from .pieces import pieces
 from .walks import borders, stars
 from .winged import END, LEFT, LEFT_AFTER, LEFT_BEFORE, RIGHT, START, WingedEdge
 
@@ -58,22 +59,13 @@ def topology(mesh: WingedEdge) -> Topology:
 
 def component_of_faces(mesh: WingedEdge) -> Numbers:
     """(f,) which faces hang together by edges, numbered by their first face; copies of an edge count as one edge."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    count = mesh.face_count
     sides = mesh.table[:, [LEFT, RIGHT]]
     both = (sides >= 0).all(axis=1)
     any_face = sides.max(axis=1, initial=-1)
     copied = np.flatnonzero(mesh.copy_of != np.arange(len(mesh)))
     one = np.concatenate((sides[both, 0], any_face[copied]))
     other = np.concatenate((sides[both, 1], any_face[mesh.copy_of[copied]]))
-    graph = coo_matrix((np.ones(len(one), np.int8), (one, other)), (count, count))
-    _, label = connected_components(graph, directed=False)
-    _, first, which = np.unique(label, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    return rank[which]
+    return pieces(one, other, mesh.face_count)
 
 
 def contradictions(mesh: WingedEdge) -> list[str]:

@@ -11,6 +11,7 @@ from manifold3d import Manifold, OpType
 from numpy.typing import NDArray
 
 from ..mesh.faults.box_pairs import meeting
+from ..mesh.pieces import pieces
 from . import native
 from .boxes import BoxTree, Floats
 
@@ -59,14 +60,10 @@ class Body:
         if native.available():
             labels = native.pieces(self.triangles, len(self.vertices))
             return self.vertices[labels == np.arange(len(labels))]
-        from scipy.sparse import coo_matrix
-        from scipy.sparse.csgraph import connected_components
-
         one, other = self.triangles[:, [0, 1]].reshape(-1), self.triangles[:, [1, 2]].reshape(-1)
-        graph = coo_matrix((np.ones(len(one), np.int8), (one, other)), (len(self.vertices),) * 2)
-        _, label = connected_components(graph, directed=False)
         used = np.unique(self.triangles)
-        return self.vertices[used[np.unique(label[used], return_index=True)[1]]]
+        label = pieces(one, other, len(self.vertices))[used]
+        return self.vertices[used[np.unique(label, return_index=True)[1]]]
 
     def holds(self, points: Floats) -> NDArray[np.bool_]:
         """(n,) which points (n, 3) lie inside; those on the surface either way. A surface that is open holds none."""

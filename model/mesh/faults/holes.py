@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ..pieces import pieces
 from .report import arrays_of
-from .sides import Flags, Floats, Numbers, Sides, pieces, shells, sides_of, twins
+from .sides import Flags, Floats, Numbers, Sides, shells, sides_of, twins
 from .welding import proper
 from .words import many
 

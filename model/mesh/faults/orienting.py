@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import ArrayLike
 
+from ..pieces import pieces
 from .report import arrays_of
-from .sides import Flags, Floats, Numbers, pieces, shells, sides_of, signed_volume
+from .sides import Flags, Floats, Numbers, shells, sides_of, signed_volume
 from .welding import proper
 from .words import many
 

@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...document.errors import Refusal
+from ..pieces import pieces
 from .crossings import crossings
 from .nearness import near_edges, near_vertices
-from .sides import Floats, Numbers, Sides, heights_of, normals_of, pieces, shells, sides_of, signed_volume
+from .sides import Floats, Numbers, Sides, heights_of, normals_of, shells, sides_of, signed_volume
 from .words import MESH_KINDS, KindWords, many
 
 Progress = Callable[[str, float], None]

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from ..pieces import pieces
+
 Floats = NDArray[np.float64]
 Numbers = NDArray[np.int64]
 Flags = NDArray[np.bool_]
@@ -84,21 +86,6 @@ def neighbours(sides: Sides) -> tuple[Numbers, Numbers]:
     order = np.argsort(sides.edge, kind="stable")
     same = np.diff(sides.edge[order]) == 0
     return order[:-1][same], order[1:][same]
-
-
-def pieces(one: Numbers, two: Numbers, count: int) -> Numbers:
-    """(count,) which of `count` things hang together by the pairs (k,), (k,), numbered by their first member."""
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    if not count:
-        return np.zeros(0, np.int64)
-    graph = coo_matrix((np.ones(len(one), np.int8), (one, two)), (count, count))
-    _, label = connected_components(graph, directed=False)
-    _, first, which = np.unique(label, return_index=True, return_inverse=True)
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    return rank[which]
 
 
 def distinct_places(vertices: Floats) -> Numbers:
