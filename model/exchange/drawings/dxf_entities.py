@@ -36,10 +36,10 @@ def pieces_of(entity: DXFEntity, matrix: Floats, tolerance: float | None) -> lis
 class _Maker:
     def __init__(self, entity: Any, matrix: Floats, tolerance: float | None) -> None:
         self.entity, self.matrix = entity, matrix
-        largest = float(np.linalg.norm(matrix[:3, :3], 2))
-        if not (isfinite(largest) and largest > 0.0):
+        scale = matrix[:3, :3]
+        if not (np.isfinite(scale).all() and scale.any()):
             raise Refusal("has no extent")
-        self.tolerance = None if tolerance is None else tolerance / largest
+        self.tolerance = None if tolerance is None else tolerance / float(np.linalg.norm(scale, 2))
 
     def made(self) -> list[Piece]:
         kind = self.entity.dxftype()

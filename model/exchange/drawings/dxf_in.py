@@ -100,6 +100,8 @@ class _Reader:
         if unit not in _UNITS:
             self.notes.add("the file names no unit that is known; its numbers are taken for millimetres")
         self._hidden: dict[str, bool] = {}
+        self._frames: dict[Any, tuple[list[Any], list[Floats]]] = {}
+        """Of each INSERT the block's entities and the matrices of its copies: a block may be shown many times."""
 
     def walk(self) -> None:
         """Gathers the pieces of every entity, those in blocks where they are inserted."""
@@ -159,12 +161,18 @@ class _Reader:
             return []
         if len(blocks) >= MOST_NESTED:
             raise Refusal(f"inserts blocks within blocks more than {MOST_NESTED} deep")
-        entities = list(block)
+        if insert not in self._frames:
+            self._frames[insert] = self._copies(insert, name, list(block))
+        entities, frames = self._frames[insert]
+        path = (*blocks, name)
+        return [(entity, moved, layer, path) for frame in frames for moved in (frame @ matrix,) for entity in entities]
+
+    def _copies(self, insert: Any, name: str, entities: list[Any]) -> tuple[list[Any], list[Floats]]:
+        """The entities of a block, the last one first, and the matrices (4, 4) of its copies."""
         columns, rows = (max(int(insert.dxf.get(f"{what}_count", 1)), 1) for what in ("column", "row"))
         if columns * rows * max(len(entities), 1) > MOST_ENTITIES:
             raise Refusal(f"inserts the block “{name:.40}” {columns * rows:,} times; more than is read")
         place = np.array(list(insert.matrix44()), float).reshape(4, 4)
-        found: list[_Visit] = []
         angle = radians(insert.dxf.get("rotation", 0.0))
         ocs = insert.ocs()
         # The steps of the array turn with the INSERT, but are not scaled.
@@ -172,11 +180,12 @@ class _Reader:
         across, along = (np.array(tuple(ocs.to_wcs(step))) for step in steps)
         across, along = across * insert.dxf.get("column_spacing", 0.0), along * insert.dxf.get("row_spacing", 0.0)
         cells = {tuple(column * across + row * along) for row in range(rows) for column in range(columns)}
+        frames = []
         for offset in sorted(cells):
             moved = place.copy()
             moved[3, :3] += offset
-            found += [(entity, moved @ matrix, layer, (*blocks, name)) for entity in reversed(entities)]
-        return found
+            frames.append(moved)
+        return entities[::-1], frames
 
     def drawing(self) -> Drawing:
         shapes = []
