@@ -24,7 +24,9 @@ GAP = 0.01
 TOLERANCE = 1e-3
 """mm that the cubics of arcs may leave them."""
 MOST_ENTITIES = 100_000
-"""That inserted blocks may come to."""
+"""That inserted blocks may come to; a file with BOMB of them is not even walked."""
+BOMB = 10 * MOST_ENTITIES
+TOO_MANY = f"inserts blocks of more than {MOST_ENTITIES:,} entities in all; simplify the file"
 MOST_NESTED = 50
 _HEAD = 1_000_000
 _FAULTS = (Exception,)
@@ -105,6 +107,8 @@ class _Reader:
 
     def walk(self) -> None:
         """Gathers the pieces of every entity, those in blocks where they are inserted."""
+        if self._shown() > BOMB:
+            raise Refusal(TOO_MANY)
         world = np.diag((self.unit, self.unit, self.unit, 1.0))
         stack: list[_Visit] = [(entity, world, "", ()) for entity in reversed(list(self.document.modelspace()))]
         inserted = 0
@@ -121,12 +125,29 @@ class _Reader:
                 inner = self._inserted(entity, matrix, layer, blocks)
                 inserted += len(inner)
                 if inserted > MOST_ENTITIES:
-                    raise Refusal(f"inserts blocks of more than {MOST_ENTITIES:,} entities in all; simplify the file")
+                    raise Refusal(TOO_MANY)
                 stack += inner
             elif kind in READ:
                 self._take(entity, matrix, layer)
             elif kind not in _QUIET:
                 self.notes.add(f"{kind:.40} is left out: it is no outline")
+
+    def _shown(self) -> float:
+        """How many entities the blocks insert in all, hidden ones counted, too; blocks within themselves are not."""
+        inner: dict[str, list[str]] = {}
+        shown: dict[str, float] = {}
+        waiting = [("", False)]  # the name of a block, "" for the model space, and whether what it inserts is counted
+        while waiting:
+            name, ready = waiting.pop()
+            if ready:
+                sizes = (len(self.document.blocks.get(block)) + shown.get(block, 0.0) for block in inner[name])
+                shown[name] = float(sum(sizes))
+            elif name not in inner:
+                entities = self.document.blocks.get(name) if name else self.document.modelspace()
+                named = (entity.dxf.get("name", "") for entity in entities if entity.dxftype() == "INSERT")
+                inner[name] = [block for block in named if block and block in self.document.blocks]
+                waiting += [(name, True), *((block, False) for block in inner[name])]
+        return shown[""]
 
     def _is_hidden(self, layer: str) -> bool:
         if layer not in self._hidden:
