@@ -31,9 +31,9 @@ class Body:
     """
 
     def __init__(
-        self, name: str, vertices: Floats, triangles: NDArray[np.integer], solid: Manifold | None = None, id: str = ""
+        self, name: str, vertices: Floats, triangles: NDArray[np.integer], solid: Manifold | None = None
     ) -> None:
-        self.name, self.id, self.solid = name, id, solid
+        self.name, self.solid = name, solid
         self.vertices, self.triangles = vertices, triangles
 
     @property

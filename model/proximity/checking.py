@@ -17,7 +17,7 @@ def body_of(result: SolidResult) -> Body:
     """An evaluated root; a surface that is open is one that bounds no solid, and one that failed is empty."""
     surface = None if result.solid is not None else open_surface(result.root)
     vertices, triangles = surface if surface is not None else arrays_of(result.mesh())
-    return Body(result.root.name, vertices, triangles, result.solid, result.root.id)
+    return Body(result.root.name, vertices, triangles, result.solid)
 
 
 def checked(
