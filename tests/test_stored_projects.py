@@ -12,6 +12,8 @@ from solidtree.model.document.table import same_document
 from solidtree.model.document.tree import numbered, walk
 from solidtree.model.project.assets import default_store
 from solidtree.model.project.project_file import FORMAT
+from solidtree.model.proximity.checks import Checks, PairCheck
+from solidtree.model.proximity.motion import Motion
 from solidtree.model.script import (
     bezier,
     box,
@@ -204,13 +206,24 @@ def format_6() -> Document:
     )
 
 
+def format_7() -> Document:
+    """Format 6, with what is asked of pairs, and motions."""
+    before = format_6()
+    one, two, three = (root.id for root in before.solids[:3])
+    return before.with_(
+        checks=Checks(0.25, (PairCheck(one, two, touching=True), PairCheck(three, one, 1.5))),
+        motions=(Motion("opening", "width", 12, 30, 2.5, 40),),
+        notes="Every kind of node, as format 7 writes it.",
+    )
+
+
 def _children_numbered(root: Node) -> Node:
     return root.with_(children=tuple(child.with_(id=f"{root.id}_{i}") for i, child in enumerate(root.children)))
 
 
 @pytest.mark.parametrize(("name", "made"), [("format_1", format_1), ("format_2", format_2), ("format_3", format_3),
                                             ("format_4", format_4), ("format_5", format_5),
-                                            ("format_6", format_6)])  # fmt: skip
+                                            ("format_6", format_6), ("format_7", format_7)])  # fmt: skip
 def test_every_format_opens_as_it_was_made(name, made):
     assert same_document(open_document(PROJECTS / f"{name}.solidtree"), made())
 

@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any, Self
 
+from ..proximity.checks import Checks
+from ..proximity.motion import Motion
 from ..surface.light import MOST as MOST_LIGHTS
 from ..surface.light import Light
 from ..surface.material import SHADINGS, Material, one_of
@@ -146,7 +148,8 @@ class Document:
     `solids` are the roots of the CSG trees, `profiles` the outlines that stand by themselves, `definitions` the
     sub-trees that instances refer to by their root's id. `sets` are saved values of the parameters, `sections` the
     planes that open the picture, `fonts` those that names of fonts stand for, `materials` those that nodes name,
-    `lights` those of the picture (none: the program's own), `shading` that of its pictures ("": the window decides).
+    `lights` those of the picture (none: the program's own), `shading` that of its pictures ("": the window decides),
+    `checks` the clearances asked of the solids, `motions` the ways that parameters go in time.
     The names of either are all different.
     """
 
@@ -160,6 +163,8 @@ class Document:
     materials: tuple[Material, ...] = ()
     lights: tuple[Light, ...] = ()
     shading: str = ""
+    checks: Checks = Checks()
+    motions: tuple[Motion, ...] = ()
     notes: str = ""
 
     def __post_init__(self) -> None:
@@ -169,6 +174,7 @@ class Document:
             (self.sections, "sections"),
             (self.materials, "materials"),
             (self.lights, "lights"),
+            (self.motions, "motions"),
         ):
             names: set[str] = set()
             for member in members:

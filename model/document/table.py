@@ -7,6 +7,8 @@ import operator
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+from ..proximity.checks import Checks, PairCheck
+from ..proximity.motion import Motion
 from ..surface.light import Light
 from ..surface.mapping import TextureMapping
 from ..surface.material import Material
@@ -21,7 +23,7 @@ from .project_font import ProjectFont
 from .tree import FAMILIES, MAX_NODES, walk
 
 MAX_ID = 100
-_Dress = TypeVar("_Dress", Material, Light, TextureMapping)
+_Dress = TypeVar("_Dress", Material, Light, TextureMapping, PairCheck)
 _DEFAULTS: dict[type[Node], dict[str, Any]] = {}
 assert from_outlines and outlines and primitives
 
@@ -57,6 +59,13 @@ def to_table(document: Document) -> dict[str, Any]:
     table["materials"] = [_changed(one, Material) for one in document.materials]
     table["lights"] = [_changed(one, Light) for one in document.lights]
     table["shading"] = document.shading
+    there = {root.id for root in document.roots}
+    pairs = [_changed(pair, PairCheck) for pair in document.checks.pairs if there.issuperset(pair.ends)]
+    table["checks"] = {"clearance": _plain(document.checks.clearance), "pairs": pairs}
+    table["motions"] = [
+        {field.name: _plain(getattr(motion, field.name)) for field in dataclasses.fields(Motion)}
+        for motion in document.motions
+    ]
     table["notes"] = document.notes
     return table
 
@@ -85,7 +94,7 @@ def _row(node: Node) -> dict[str, Any]:
     return row
 
 
-def _changed(value: Material | Light | TextureMapping, kind: type[Material | Light | TextureMapping]) -> dict[str, Any]:
+def _changed(value: _Dress, kind: type[_Dress]) -> dict[str, Any]:
     """The fields that have not their default."""
     found = ((field.name, getattr(value, field.name), field.default) for field in dataclasses.fields(kind))
     return {name: _plain(now) for name, now, default in found if now != default}
@@ -145,6 +154,8 @@ def from_table(table: Mapping[str, Any], reuse: Reuse | None = None) -> Document
         ),
         lights=tuple(_restored(row, "a light", Light) for row in _expect(table.get("lights", []), list, "“lights”")),
         shading=_expect(table.get("shading", ""), str, "“shading”"),
+        checks=_checks(table.get("checks", {})),
+        motions=tuple(_motion(row) for row in _expect(table.get("motions", []), list, "“motions”")),
         notes=_expect(table.get("notes", ""), str, "“notes”"),
     )
 
@@ -269,6 +280,21 @@ def _font(row: Any) -> ProjectFont:
     return ProjectFont(**_fields(row, "a font", ProjectFont))
 
 
+def _checks(row: Any) -> Checks:
+    row = _expect(row, dict, "“checks”")
+    if extra := sorted(map(str, row.keys() - {"clearance", "pairs"})):
+        raise Refusal(f"“checks” has no field {extra[0]!r:.60}")
+    pairs = [
+        _restored({"one": "", "other": "", **_expect(pair, dict, "a checked pair")}, "a checked pair", PairCheck)
+        for pair in _expect(row.get("pairs", []), list, "the pairs of “checks”")
+    ]
+    return Checks(row.get("clearance", 0.0), tuple(pairs))
+
+
+def _motion(row: Any) -> Motion:
+    return Motion(**_fields(row, "a motion", Motion))
+
+
 def _restored(row: Any, what: str, kind: type[_Dress]) -> _Dress:
     row = _expect(row, dict, what)
     known = {field.name: field.default for field in dataclasses.fields(kind)}
@@ -279,7 +305,7 @@ def _restored(row: Any, what: str, kind: type[_Dress]) -> _Dress:
     return kind(**values)
 
 
-def _fields(row: Any, what: str, kind: type[ParameterSet | Section | ProjectFont]) -> dict[str, Any]:
+def _fields(row: Any, what: str, kind: type[ParameterSet | Section | ProjectFont | Motion]) -> dict[str, Any]:
     row = _expect(row, dict, what)
     names = {field.name for field in dataclasses.fields(kind)}
     wrong = sorted(names ^ set(row))
@@ -317,10 +343,15 @@ def _anonymous(document: Document) -> Any:
         if "definition" in row:
             row["definition"] = order.get(row["definition"], row["definition"])
         rows[order[node_id]] = row
+    pairs = [
+        {**row, **dict(zip(("one", "other"), sorted((order[row["one"]], order[row["other"]])), strict=True))}
+        for row in table["checks"]["pairs"]
+    ]
     fonts = [row for row in table["fonts"] if row["asset"]]  # which version of an installed font is no part of it
     return {
         **table,
         "nodes": rows,
         "fonts": fonts,
+        "checks": {**table["checks"], "pairs": sorted(pairs, key=lambda row: (row["one"], row["other"]))},
         **{family: [order[i] for i in table[family]] for family in FAMILIES},
     }

@@ -82,7 +82,8 @@ def _unlinked(document: Document, node_id: str) -> Document:
 
 
 def insert_document(document: Document, other: Document) -> Document:
-    """Add all that another document holds; like-named parameters must agree, and sections come closed."""
+    """Add all that another document holds; like-named parameters must agree, and sections come closed; the
+    clearance asked of all stays."""
     if not isinstance(other, Document):
         raise Refusal(f"a document is needed, not {other!r:.60}")
     known = {parameter.name: parameter for parameter in document.parameters}
@@ -109,6 +110,12 @@ def insert_document(document: Document, other: Document) -> Document:
     coming = iter((*named, *roots[len(named) :]))
     changes = {family: (*getattr(document, family), *(next(coming) for _ in getattr(other, family)))
                for family in FAMILIES}  # fmt: skip
+    pairs = [pair for pair in other.checks.pairs if renamed.keys() >= set(pair.ends)]
+    known_pairs = (*document.checks.pairs, *(replace(p, one=renamed[p.one], other=renamed[p.other]) for p in pairs))
+    motions = [*document.motions]
+    for motion in other.motions:
+        motions.append(motion.with_(name=unique_name(motion.name, [one.name for one in motions])))
+    changes |= {"checks": document.checks.with_(pairs=known_pairs), "motions": tuple(motions)}
     instances = [node.id for node in walk(*roots) if isinstance(node, Instance)]
     # One whose definition was missing must not come upon a node of this document by chance.
     return change_each(document.with_(**changes), instances, lambda node: node.with_(

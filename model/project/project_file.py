@@ -22,13 +22,14 @@ from .archive import allowance, member, members_of, open_archive, unpacked
 from .assets import AssetStore, default_store, is_sha, references
 from .disk import one_line, reason_of, replace_file
 
-FORMAT = 6
+FORMAT = 7
 MIGRATIONS: dict[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
     1: lambda table: table,  # 2 added sets of parameters and sections, which may be missing
     2: lambda table: table,  # 3 added curves, what is made of them, and outlines that stand by themselves
     3: lambda table: table,  # 4 added the project's fonts
     4: lambda table: table,  # 5 added materials, mappings, lights and shading
     5: lambda table: table,  # 6 added crease angles
+    6: lambda table: table,  # 7 added checks and motions
 }
 """For each older format the function that makes its table one of the next format."""
 
