@@ -20,7 +20,7 @@ from .tree import EPSILON, Tree, empty_tree
 
 Numbers = NDArray[np.int64]
 
-INTERFACE = 2
+INTERFACE = 3
 """What bsp_interface answers; one that was left over from before is not used."""
 
 _REPORT = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int64)
@@ -97,7 +97,8 @@ def _declared(compiled: ctypes.CDLL) -> ctypes.CDLL:
         ("bsp_order", _COUNT, (order, _ADDRESS, _NUMBER, _NUMBER, _ADDRESS, _COUNT)),
         ("bsp_fans", None, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS)),
         ("proximity_build", _COUNT, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS, _ADDRESS)),
-        ("proximity_distance", _NUMBER, (_ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
+        ("proximity_distance", _NUMBER, (_ADDRESS, _ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
+        ("proximity_near", _NUMBER, (_ADDRESS, _ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
         ("proximity_nearest", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, ctypes.c_double, _ADDRESS, _ADDRESS, _ADDRESS)),
         ("proximity_pieces", None, (_ADDRESS, _COUNT, _COUNT, _ADDRESS)),
         ("proximity_windings", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),

@@ -1,8 +1,9 @@
-// A tree of boxes over triangles, compiled: building it, the distance of two surfaces, the nearest points of a surface,
-// and how often it winds round points. The same as model/proximity has it in NumPy; boxes.py there says what the arrays
+// A tree of boxes over triangles, compiled: building it, the distance of two surfaces, one of them moved if asked, the
+// nearest points of a surface, and how often it winds round points. The same as model/proximity has it in NumPy; boxes.py there says what the arrays
 // hold, native.py calls this through ctypes. The rules of bsp.cpp hold here, too.
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -18,13 +19,16 @@
 
 namespace {
 
-// What crosses the border; native.py declares the same. An inner node's children are `link[0]` and the one after it; a
-// leaf has `link[1]` triangles, from place `link[0]` of `order` on.
+// What crosses the border; native.py declares the same. A node has `link[2]` triangles, from place `link[1]` of `order`
+// on; an inner one's children are `link[0]` and the one after it, a leaf has -1 there. `oriented` and `states` are filled
+// as they are needed, by whoever comes first: see `oriented_box`.
 struct BoxTree {
     const double* triangles;  // (n, 3, 3)
     const int32_t* order;     // (n,)
     const double* boxes;      // (nodes, 6): low, high
-    const int32_t* links;     // (nodes, 2)
+    const int32_t* links;     // (nodes, 3)
+    double* oriented;         // (nodes, 15)
+    uint8_t* states;          // (nodes,)
     int64_t nodes;
 };
 
@@ -164,83 +168,279 @@ inline double gap_to(const double* box, Vec p) {
     return square;
 }
 
-inline double size_of(const double* box) {
-    return std::max(std::max(box[3] - box[0], box[4] - box[1]), box[5] - box[2]);
-}
-
 inline void corners_of(const BoxTree& tree, int32_t triangle, Vec* t) {
     const double* from = tree.triangles + 9 * int64_t(triangle);
     for (int k = 0; k < 3; ++k) t[k] = at(from + 3 * k);
 }
 
-struct Pair {
-    double square, between;  // of the boxes' gap, and of the way from middle to middle
-    int32_t one, other;
+// A box along the axes of what it holds: its middle, its axes as unit vectors, and half of its length along each.
+struct Oriented {
+    Vec middle, axes[3];
+    double half[3];
 };
 
-inline Pair pair_of(const BoxTree& one, const BoxTree& other, int32_t i, int32_t j) {
-    const double *box = one.boxes + 6 * int64_t(i), *counter = other.boxes + 6 * int64_t(j);
-    double square = 0.0, between = 0.0;
-    for (int k = 0; k < 3; ++k) {
-        const double gap = std::max(box[k] - counter[3 + k], counter[k] - box[3 + k]);
-        if (gap > 0.0) square += gap * gap;
-        const double way = box[k] + box[3 + k] - counter[k] - counter[3 + k];
-        between += way * way;
+inline double part(Vec v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
+
+// The eigenvectors of a symmetric matrix, by Jacobi's rotations (1846).
+void eigenvectors(double m[3][3], Vec axes[3]) {
+    double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (int sweep = 0; sweep < 8; ++sweep) {
+        const double off = std::fabs(m[0][1]) + std::fabs(m[0][2]) + std::fabs(m[1][2]);
+        if (!(off > 1e-9 * (m[0][0] + m[1][1] + m[2][2]))) break;
+        for (int p = 0; p < 2; ++p)
+            for (int q = p + 1; q < 3; ++q) {
+                if (m[p][q] == 0.0) continue;
+                const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
+                const double t = (theta >= 0.0 ? 1.0 : -1.0) / (std::fabs(theta) + std::sqrt(theta * theta + 1.0));
+                const double c = 1.0 / std::sqrt(t * t + 1.0), s = t * c;
+                for (int k = 0; k < 3; ++k) {
+                    const double one = m[k][p], other = m[k][q];
+                    m[k][p] = c * one - s * other;
+                    m[k][q] = s * one + c * other;
+                }
+                for (int k = 0; k < 3; ++k) {
+                    const double one = m[p][k], other = m[q][k];
+                    m[p][k] = c * one - s * other;
+                    m[q][k] = s * one + c * other;
+                    const double a = v[k][p], b = v[k][q];
+                    v[k][p] = c * a - s * b;
+                    v[k][q] = s * a + c * b;
+                }
+            }
     }
-    return {square, between, i, j};
+    // The third one is made of the others, so that the axes are square to each other whatever the rounding.
+    axes[0] = {v[0][0], v[1][0], v[2][0]};
+    axes[0] = (1.0 / std::sqrt(dot(axes[0], axes[0]))) * axes[0];
+    axes[1] = {v[0][1], v[1][1], v[2][1]};
+    axes[1] = axes[1] - dot(axes[0], axes[1]) * axes[0];
+    axes[1] = (1.0 / std::sqrt(dot(axes[1], axes[1]))) * axes[1];
+    axes[2] = cross(axes[0], axes[1]);
 }
 
-// The triangles of two leaves, but for those that a slab across the best way keeps as far apart as it is long: most.
-void leaves(const BoxTree& one, const BoxTree& other, int32_t i, int32_t j, Best& best) {
-    const int32_t *a = one.links + 2 * int64_t(i), *b = other.links + 2 * int64_t(j);
-    for (int32_t m = 0; m < a[1]; ++m) {
-        const int32_t left = one.order[a[0] + m];
-        Vec t[3];
-        corners_of(one, left, t);
-        for (int32_t n = 0; n < b[1]; ++n) {
-            const int32_t right = other.order[b[0] + n];
-            Vec s[3];
-            corners_of(other, right, s);
+// Around a node's triangles, along the axes in which their corners spread (Gottschalk, Lin and Manocha 1996, "OBBTree").
+Oriented around(const BoxTree& tree, int32_t node) {
+    const int32_t* link = tree.links + 3 * int64_t(node);
+    const double* box = tree.boxes + 6 * int64_t(node);
+    const Vec centre = 0.5 * (at(box) + at(box + 3));
+    double sum[3] = {0, 0, 0}, square[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
+    const int32_t* order = tree.order + link[1];
+    for (int32_t i = 0; i < link[2]; ++i) {
+        const double* from = tree.triangles + 9 * int64_t(order[i]);
+        for (int k = 0; k < 9; k += 3) {
+            const double x = from[k] - centre.x, y = from[k + 1] - centre.y, z = from[k + 2] - centre.z;
+            sum[0] += x;
+            sum[1] += y;
+            sum[2] += z;
+            square[0][0] += x * x;
+            square[0][1] += x * y;
+            square[0][2] += x * z;
+            square[1][1] += y * y;
+            square[1][2] += y * z;
+            square[2][2] += z * z;
+        }
+    }
+    const double count = 3.0 * link[2];
+    for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) square[j][i] = square[i][j] = square[i][j] - sum[i] * sum[j] / count;
+    Oriented found;
+    eigenvectors(square, found.axes);
+    double low[3] = {INFINITE, INFINITE, INFINITE}, high[3] = {-INFINITE, -INFINITE, -INFINITE};
+    for (int32_t i = 0; i < link[2]; ++i) {
+        const double* from = tree.triangles + 9 * int64_t(order[i]);
+        for (int k = 0; k < 9; k += 3) {
+            const Vec p = at(from + k) - centre;
+            for (int axis = 0; axis < 3; ++axis) {
+                const double place = dot(p, found.axes[axis]);
+                low[axis] = std::min(low[axis], place);
+                high[axis] = std::max(high[axis], place);
+            }
+        }
+    }
+    found.middle = centre;
+    for (int axis = 0; axis < 3; ++axis) {
+        found.middle = found.middle + (0.5 * (low[axis] + high[axis])) * found.axes[axis];
+        found.half[axis] = 0.5 * (high[axis] - low[axis]);
+    }
+    return found;
+}
+
+enum : uint8_t { UNKNOWN, WRITING, KNOWN };
+
+// Made when it is first asked for. Of several threads that ask at once one writes it down.
+Oriented oriented_box(const BoxTree& tree, int32_t node) {
+    auto* state = reinterpret_cast<std::atomic<uint8_t>*>(tree.states + node);
+    double* kept = tree.oriented + 15 * int64_t(node);
+    if (state->load(std::memory_order_acquire) == KNOWN)
+        return {at(kept), {at(kept + 3), at(kept + 6), at(kept + 9)}, {kept[12], kept[13], kept[14]}};
+    const Oriented found = around(tree, node);
+    uint8_t before = UNKNOWN;
+    if (state->compare_exchange_strong(before, WRITING, std::memory_order_acquire)) {
+        const Vec vectors[4] = {found.middle, found.axes[0], found.axes[1], found.axes[2]};
+        for (int k = 0; k < 12; ++k) kept[k] = part(vectors[k / 3], k % 3);
+        for (int k = 0; k < 3; ++k) kept[12 + k] = found.half[k];
+        state->store(KNOWN, std::memory_order_release);
+    }
+    return found;
+}
+
+// Takes points of the other surface into the space of the first.
+struct Pose {
+    Vec rows[3];
+    Vec by;
+    bool moves;
+
+    Vec turned(Vec v) const { return moves ? Vec{dot(rows[0], v), dot(rows[1], v), dot(rows[2], v)} : v; }
+    Vec placed(Vec p) const { return moves ? turned(p) + by : p; }
+};
+
+inline Pose pose_of(const double* matrix) {
+    if (matrix == nullptr) return {{}, {0, 0, 0}, false};
+    return {{at(matrix), at(matrix + 4), at(matrix + 8)}, {matrix[3], matrix[7], matrix[11]}, true};
+}
+
+// Two trees, the second one moved.
+struct Couple {
+    const BoxTree &one, &other;
+    Pose pose;
+    double floor;  // the rounding of boxes' gaps
+};
+
+struct Pair {
+    double square, between;  // of the boxes' gap at the least, and of the way from middle to middle
+    int32_t one, other;
+    bool opens;  // the first one's is the larger box
+};
+
+// The square of what two boxes are apart at the least: along the axes of the one, or of the other.
+double apart(const Oriented& one, const Oriented& other, double floor) {
+    const Vec way = other.middle - one.middle;
+    double turn[3][3], mine[3], theirs[3], first = 0.0, second = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        mine[i] = dot(way, one.axes[i]);
+        theirs[i] = dot(way, other.axes[i]);
+        for (int j = 0; j < 3; ++j) turn[i][j] = std::fabs(dot(one.axes[i], other.axes[j]));
+    }
+    for (int i = 0; i < 3; ++i) {
+        const double gap = std::fabs(mine[i]) - one.half[i] - floor -
+            (turn[i][0] * other.half[0] + turn[i][1] * other.half[1] + turn[i][2] * other.half[2]);
+        const double counter = std::fabs(theirs[i]) - other.half[i] - floor -
+            (turn[0][i] * one.half[0] + turn[1][i] * one.half[1] + turn[2][i] * one.half[2]);
+        if (gap > 0.0) first += gap * gap;
+        if (counter > 0.0) second += counter * counter;
+    }
+    return std::max(first, second);
+}
+
+inline double length_of(const Oriented& box) { return std::max(std::max(box.half[0], box.half[1]), box.half[2]); }
+
+Pair pair_of(const Couple& of, int32_t i, int32_t j, double most) {
+    if (!of.pose.moves) {
+        const double *box = of.one.boxes + 6 * int64_t(i), *counter = of.other.boxes + 6 * int64_t(j);
+        double square = 0.0;
+        for (int k = 0; k < 3; ++k) {
+            const double gap = std::max(box[k] - counter[3 + k], counter[k] - box[3 + k]);
+            if (gap > 0.0) square += gap * gap;
+        }
+        if (!(square < most)) return {square, 0.0, i, j, false};
+    }
+    const Oriented one = oriented_box(of.one, i);
+    Oriented other = oriented_box(of.other, j);
+    other.middle = of.pose.placed(other.middle);
+    if (of.pose.moves)
+        for (Vec& axis : other.axes) axis = of.pose.turned(axis);
+    const Vec way = other.middle - one.middle;
+    return {apart(one, other, of.floor), dot(way, way), i, j, length_of(one) >= length_of(other)};
+}
+
+// Whether the plane of a triangle keeps another one as far from it as the best way is long.
+inline bool beyond(const Vec* plane, const Vec* t, double square) {
+    const Vec normal = cross(plane[1] - plane[0], plane[2] - plane[0]);
+    const double a = dot(t[0] - plane[0], normal), b = dot(t[1] - plane[0], normal), c = dot(t[2] - plane[0], normal);
+    const double least = std::min(std::min(a, b), c), most = std::max(std::max(a, b), c);
+    const double height = least > 0.0 ? least : most < 0.0 ? -most : 0.0;
+    return height * height > square * dot(normal, normal);
+}
+
+void try_triangles(const Couple& of, int32_t left, int32_t right, const Vec* t, const Vec* s, Best& best) {
+    if (!nearest_of(t, s, best)) return;
+    best.one = left;
+    best.other = right;
+    if (best.square > 0.0) best.along = (1.0 / std::sqrt(best.square)) * (best.b - best.a);
+}
+
+inline void corners_of(const Couple& of, int32_t triangle, Vec* t) {
+    corners_of(of.other, triangle, t);
+    for (int k = 0; k < 3; ++k) t[k] = of.pose.placed(t[k]);
+}
+
+// The triangles of two leaves, but for those that a slab across the best way, or the plane of one, keeps apart: most.
+void leaves(const Couple& of, int32_t i, int32_t j, Best& best) {
+    const int32_t *a = of.one.links + 3 * int64_t(i), *b = of.other.links + 3 * int64_t(j);
+    for (int32_t n = 0; n < b[2]; ++n) {
+        const int32_t right = of.other.order[b[1] + n];
+        Vec s[3];
+        corners_of(of, right, s);
+        for (int32_t m = 0; m < a[2]; ++m) {
+            const int32_t left = of.one.order[a[1] + m];
+            Vec t[3];
+            corners_of(of.one, left, t);
             const Vec way = best.along;
             const double ends = std::max(std::max(dot(way, t[0]), dot(way, t[1])), dot(way, t[2]));
             const double begins = std::min(std::min(dot(way, s[0]), dot(way, s[1])), dot(way, s[2]));
             const double apart = begins - ends;
             if (apart > 0.0 && apart * apart >= best.square) continue;
-            if (!nearest_of(t, s, best)) continue;
-            best.one = left;
-            best.other = right;
+            if (beyond(t, s, best.square) || beyond(s, t, best.square)) continue;
+            try_triangles(of, left, right, t, s, best);
             if (best.square == 0.0) return;
-            best.along = (1.0 / std::sqrt(best.square)) * (best.b - best.a);
         }
     }
 }
 
 // From the pair of roots down, the nearer boxes first; pairs that are farther apart than what was found are left out.
-void descend(const BoxTree& one, const BoxTree& other, Best& best) {
+void descend(const Couple& of, Best& best) {
     std::vector<Pair> waiting;
-    waiting.push_back(pair_of(one, other, 0, 0));
+    waiting.push_back(pair_of(of, 0, 0, best.square));
     while (!waiting.empty() && best.square > 0.0) {
         const Pair pair = waiting.back();
         waiting.pop_back();
         if (!(pair.square < best.square)) continue;
-        const bool leaf = one.links[2 * int64_t(pair.one) + 1] > 0, end = other.links[2 * int64_t(pair.other) + 1] > 0;
-        if (leaf && end) {
-            leaves(one, other, pair.one, pair.other, best);
+        const int32_t left = of.one.links[3 * int64_t(pair.one)], right = of.other.links[3 * int64_t(pair.other)];
+        if (left < 0 && right < 0) {
+            leaves(of, pair.one, pair.other, best);
             continue;
         }
-        const double *box = one.boxes + 6 * int64_t(pair.one), *counter = other.boxes + 6 * int64_t(pair.other);
-        const bool opens = end || (!leaf && size_of(box) >= size_of(counter));
-        const int32_t child = opens ? one.links[2 * int64_t(pair.one)] : other.links[2 * int64_t(pair.other)];
+        const bool opens = right < 0 || (left >= 0 && pair.opens);
         Pair parts[2];
-        for (int k = 0; k < 2; ++k) {
-            const int32_t i = opens ? child + k : pair.one, j = opens ? pair.other : child + k;
-            parts[k] = pair_of(one, other, i, j);
-        }
+        for (int k = 0; k < 2; ++k)
+            parts[k] = pair_of(of, opens ? left + k : pair.one, opens ? pair.other : right + k, best.square);
         const bool same = parts[0].square == parts[1].square;
         if (same ? parts[0].between < parts[1].between : parts[0].square < parts[1].square) std::swap(parts[0], parts[1]);
         for (const Pair& part : parts)
             if (part.square < best.square) waiting.push_back(part);
     }
+}
+
+// The least distance below `limit`, beginning with what triangles `faces` tell, where these are any.
+void least(const Couple& of, double limit, double* found, int32_t* faces) {
+    Best best = {limit * limit, {0, 0, 0}, {0, 0, 0}, -1, -1, {0, 0, 0}};
+    if (of.one.nodes > 0 && of.other.nodes > 0) {
+        const Oriented one = oriented_box(of.one, 0), other = oriented_box(of.other, 0);
+        const Vec way = of.pose.placed(other.middle) - one.middle;
+        const double square = dot(way, way);
+        if (square > 0.0 && std::isfinite(square)) best.along = (1.0 / std::sqrt(square)) * way;
+        if (faces[0] >= 0) {
+            Vec t[3], s[3];
+            corners_of(of.one, faces[0], t);
+            corners_of(of, faces[1], s);
+            try_triangles(of, faces[0], faces[1], t, s, best);
+        }
+        descend(of, best);
+    }
+    found[0] = best.one < 0 ? INFINITE : std::sqrt(best.square);
+    const Vec points[2] = {best.a, best.b};
+    for (int k = 0; k < 6; ++k) found[1 + k] = part(points[k / 3], k % 3);
+    faces[0] = best.one;
+    faces[1] = best.other;
 }
 
 // On which side of the line from a to b, seen from above, a point lies: 1 on the left. One that lies on it is moved by
@@ -265,15 +465,15 @@ int32_t winding(const BoxTree& tree, Vec p, std::vector<int32_t>& waiting) {
         waiting.pop_back();
         const double* box = tree.boxes + 6 * node;
         if (p.x < box[0] || p.x > box[3] || p.y < box[1] || p.y > box[4] || p.z > box[5]) continue;
-        const int32_t* link = tree.links + 2 * node;
-        if (link[1] == 0) {
+        const int32_t* link = tree.links + 3 * node;
+        if (link[0] >= 0) {
             waiting.push_back(link[0]);
             waiting.push_back(link[0] + 1);
             continue;
         }
-        for (int32_t k = 0; k < link[1]; ++k) {
+        for (int32_t k = 0; k < link[2]; ++k) {
             Vec t[3];
-            corners_of(tree, tree.order[link[0] + k], t);
+            corners_of(tree, tree.order[link[1] + k], t);
             const int side = side_of(t[0], t[1], p.x, p.y);
             if (side_of(t[1], t[2], p.x, p.y) != side || side_of(t[2], t[0], p.x, p.y) != side) continue;
             const Vec normal = cross(t[1] - t[0], t[2] - t[0]);
@@ -283,91 +483,185 @@ int32_t winding(const BoxTree& tree, Vec p, std::vector<int32_t>& waiting) {
     return found;
 }
 
+// The boxes of triangles in `order` (count,), which gets another order: boxes (2 count, 6), links (2 count, 3); the
+// number of nodes.
+int64_t build(const double* triangles, int64_t count, int32_t* order, double* boxes, int32_t* links) {
+    std::vector<Vec> middles(static_cast<size_t>(count));
+    for (int64_t i = 0; i < count; ++i) {
+        const double* t = triangles + 9 * i;
+        middles[size_t(i)] = at(t) + at(t + 3) + at(t + 6);
+        order[i] = int32_t(i);
+    }
+    struct Range {
+        int32_t node, first, last;
+    };
+    std::vector<Range> waiting;
+    int64_t nodes = count > 0 ? 1 : 0;
+    if (count > 0) waiting.push_back({0, 0, int32_t(count)});
+    while (!waiting.empty()) {
+        const Range range = waiting.back();
+        waiting.pop_back();
+        double* box = boxes + 6 * int64_t(range.node);
+        double low[3] = {INFINITE, INFINITE, INFINITE}, high[3] = {-INFINITE, -INFINITE, -INFINITE};
+        for (int k = 0; k < 3; ++k) {
+            box[k] = INFINITE;
+            box[3 + k] = -INFINITE;
+        }
+        for (int32_t i = range.first; i < range.last; ++i) {
+            const double* t = triangles + 9 * int64_t(order[i]);
+            const Vec m = middles[size_t(order[i])];
+            const double middle[3] = {m.x, m.y, m.z};
+            for (int k = 0; k < 3; ++k) {
+                box[k] = std::min(box[k], std::min(t[k], std::min(t[3 + k], t[6 + k])));
+                box[3 + k] = std::max(box[3 + k], std::max(t[k], std::max(t[3 + k], t[6 + k])));
+                low[k] = std::min(low[k], middle[k]);
+                high[k] = std::max(high[k], middle[k]);
+            }
+        }
+        int32_t* link = links + 3 * int64_t(range.node);
+        link[0] = -1;
+        link[1] = range.first;
+        link[2] = range.last - range.first;
+        if (link[2] <= LEAF) continue;
+        int axis = 0;
+        for (int k = 1; k < 3; ++k)
+            if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+        const int32_t half = range.first + link[2] / 2;
+        std::nth_element(order + range.first, order + half, order + range.last, [&](int32_t i, int32_t j) {
+            const double one = part(middles[size_t(i)], axis), other = part(middles[size_t(j)], axis);
+            return one < other || (one == other && i < j);
+        });
+        link[0] = int32_t(nodes);
+        waiting.push_back({int32_t(nodes), range.first, half});
+        waiting.push_back({int32_t(nodes) + 1, half, range.last});
+        nodes += 2;
+    }
+    return nodes;
+}
+
+// A surface as it crosses the border: `vertices` (n, 3), `corners` (m, 3), as native.py declares it.
+struct Surface {
+    const double* vertices;
+    const int32_t* corners;
+    int64_t count, faces;
+};
+
+// A tree of some triangles of a surface, `which` of them, that lasts as long as a question.
+struct Cutout {
+    std::vector<int32_t> which, order, links;
+    std::vector<double> triangles, boxes, oriented;
+    std::vector<uint8_t> states;
+    BoxTree tree;
+
+    // Those whose boxes reach into a box, which is drawn in to what they hold of it; false for none.
+    bool take(const Surface& surface, double* box) {
+        std::vector<uint8_t> codes(static_cast<size_t>(surface.count));
+        for (int64_t i = 0; i < surface.count; ++i) {
+            const double* p = surface.vertices + 3 * i;
+            codes[size_t(i)] = uint8_t((p[0] < box[0]) | (p[1] < box[1]) << 1 | (p[2] < box[2]) << 2 |
+                (p[0] > box[3]) << 3 | (p[1] > box[4]) << 4 | (p[2] > box[5]) << 5);
+        }
+        which.clear();
+        double held[6] = {INFINITE, INFINITE, INFINITE, -INFINITE, -INFINITE, -INFINITE};
+        for (int64_t i = 0; i < surface.faces; ++i) {
+            const int32_t* c = surface.corners + 3 * i;
+            if (codes[size_t(c[0])] & codes[size_t(c[1])] & codes[size_t(c[2])]) continue;
+            which.push_back(int32_t(i));
+            for (int k = 0; k < 3; ++k)
+                for (int axis = 0; axis < 3; ++axis) {
+                    const double place = surface.vertices[3 * int64_t(c[k]) + axis];
+                    held[axis] = std::min(held[axis], place);
+                    held[3 + axis] = std::max(held[3 + axis], place);
+                }
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            box[axis] = std::max(box[axis], held[axis]);
+            box[3 + axis] = std::min(box[3 + axis], held[3 + axis]);
+        }
+        return !which.empty();
+    }
+
+    void grow(const Surface& surface) {
+        const size_t count = which.size();
+        triangles.resize(9 * count);
+        for (size_t i = 0; i < count; ++i)
+            for (size_t k = 0; k < 9; ++k) {
+                const int32_t vertex = surface.corners[3 * int64_t(which[i]) + int64_t(k / 3)];
+                triangles[9 * i + k] = surface.vertices[3 * int64_t(vertex) + int64_t(k % 3)];
+            }
+        order.resize(count);
+        boxes.resize(12 * count);
+        links.resize(6 * count);
+        const int64_t nodes = build(triangles.data(), int64_t(count), order.data(), boxes.data(), links.data());
+        oriented.resize(15 * size_t(nodes));
+        states.assign(size_t(nodes), UNKNOWN);
+        tree = {triangles.data(), order.data(), boxes.data(), links.data(), oriented.data(), states.data(), nodes};
+    }
+};
+
+// The rounding of gaps between boxes of two trees.
+double floor_of(const BoxTree& one, const BoxTree& other, const Pose& pose) {
+    double most = 0.0;
+    for (const BoxTree* tree : {&one, &other})
+        if (tree->nodes > 0)
+            for (int k = 0; k < 6; ++k) most = std::max(most, std::fabs(tree->boxes[k]));
+    if (pose.moves) most = std::max(most, std::max(std::fabs(pose.by.x), std::max(std::fabs(pose.by.y), std::fabs(pose.by.z))));
+    return 32.0 * std::numeric_limits<double>::epsilon() * most;
+}
+
 }  // namespace
 
-// Fills order (n,), boxes (2 n, 6) and links (2 n, 2); the number of nodes, or -1 where there is no memory.
+// Fills order (n,), boxes (2 n, 6) and links (2 n, 3); the number of nodes, or -1 where there is no memory.
 PROXIMITY_API int64_t proximity_build(const double* triangles, int64_t count, int32_t* order, double* boxes, int32_t* links) {
     try {
-        std::vector<Vec> middles(static_cast<size_t>(count));
-        for (int64_t i = 0; i < count; ++i) {
-            const double* t = triangles + 9 * i;
-            middles[size_t(i)] = at(t) + at(t + 3) + at(t + 6);
-            order[i] = int32_t(i);
-        }
-        struct Range {
-            int32_t node, first, last;
-        };
-        std::vector<Range> waiting;
-        int64_t nodes = count > 0 ? 1 : 0;
-        if (count > 0) waiting.push_back({0, 0, int32_t(count)});
-        while (!waiting.empty()) {
-            const Range range = waiting.back();
-            waiting.pop_back();
-            double* box = boxes + 6 * int64_t(range.node);
-            double low[3] = {INFINITE, INFINITE, INFINITE}, high[3] = {-INFINITE, -INFINITE, -INFINITE};
-            for (int k = 0; k < 3; ++k) {
-                box[k] = INFINITE;
-                box[3 + k] = -INFINITE;
-            }
-            for (int32_t i = range.first; i < range.last; ++i) {
-                const double* t = triangles + 9 * int64_t(order[i]);
-                const Vec m = middles[size_t(order[i])];
-                const double middle[3] = {m.x, m.y, m.z};
-                for (int k = 0; k < 3; ++k) {
-                    box[k] = std::min(box[k], std::min(t[k], std::min(t[3 + k], t[6 + k])));
-                    box[3 + k] = std::max(box[3 + k], std::max(t[k], std::max(t[3 + k], t[6 + k])));
-                    low[k] = std::min(low[k], middle[k]);
-                    high[k] = std::max(high[k], middle[k]);
-                }
-            }
-            int32_t* link = links + 2 * int64_t(range.node);
-            if (range.last - range.first <= LEAF) {
-                link[0] = range.first;
-                link[1] = range.last - range.first;
-                continue;
-            }
-            int axis = 0;
-            for (int k = 1; k < 3; ++k)
-                if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
-            const int32_t half = range.first + (range.last - range.first) / 2;
-            std::nth_element(order + range.first, order + half, order + range.last, [&](int32_t i, int32_t j) {
-                const Vec &a = middles[size_t(i)], &b = middles[size_t(j)];
-                const double one = axis == 0 ? a.x : axis == 1 ? a.y : a.z, other = axis == 0 ? b.x : axis == 1 ? b.y : b.z;
-                return one < other || (one == other && i < j);
-            });
-            link[0] = int32_t(nodes);
-            link[1] = 0;
-            waiting.push_back({int32_t(nodes), range.first, half});
-            waiting.push_back({int32_t(nodes) + 1, half, range.last});
-            nodes += 2;
-        }
-        return nodes;
+        return build(triangles, count, order, boxes, links);
     } catch (const std::bad_alloc&) {
         return -1;
     }
 }
 
 // The least distance below `limit`: found (7,) gets it and the points on both surfaces, faces (2,) their triangles, -1
-// where there is none. 0, or 1 where there is no memory.
+// where there is none. Where `faces` holds triangles, these are looked at first. `pose`, (4, 4) or none, moves the second
+// surface. 0, or 1 where there is no memory.
 PROXIMITY_API int32_t proximity_distance(
-    const BoxTree* one, const BoxTree* other, double limit, double* found, int32_t* faces) {
+    const BoxTree* one, const BoxTree* other, const double* pose, double limit, double* found, int32_t* faces) {
     try {
-        Best best = {limit * limit, {0, 0, 0}, {0, 0, 0}, -1, -1, {0, 0, 0}};
-        if (one->nodes > 0 && other->nodes > 0) {
-            const Vec way = at(other->boxes) + at(other->boxes + 3) - at(one->boxes) - at(one->boxes + 3);
-            const double square = dot(way, way);
-            if (square > 0.0 && std::isfinite(square)) best.along = (1.0 / std::sqrt(square)) * way;
-            descend(*one, *other, best);
+        const Pose moved = pose_of(pose);
+        least({*one, *other, moved, floor_of(*one, *other, moved)}, limit, found, faces);
+        return 0;
+    } catch (const std::bad_alloc&) {
+        return 1;
+    }
+}
+
+// The same of surfaces without trees, where `limit` is finite: of what each has near the box of the other. `boxes` (2, 6)
+// are theirs.
+PROXIMITY_API int32_t proximity_near(
+    const Surface* one, const Surface* other, const double* boxes, double limit, double* found, int32_t* faces) {
+    try {
+        found[0] = INFINITE;
+        for (int k = 1; k < 7; ++k) found[k] = 0.0;
+        faces[0] = faces[1] = -1;
+        const double reach = limit * (1.0 + 1e-9);
+        double common[6];
+        for (int k = 0; k < 3; ++k) {
+            common[k] = boxes[6 + k] - reach;
+            common[3 + k] = boxes[9 + k] + reach;
         }
-        found[0] = best.one < 0 ? INFINITE : std::sqrt(best.square);
-        const Vec points[2] = {best.a, best.b};
-        for (int k = 0; k < 2; ++k) {
-            found[1 + 3 * k] = points[k].x;
-            found[2 + 3 * k] = points[k].y;
-            found[3 + 3 * k] = points[k].z;
+        Cutout left, right;
+        if (!left.take(*one, common)) return 0;
+        for (int k = 0; k < 3; ++k) {
+            common[k] -= reach;
+            common[3 + k] += reach;
         }
-        faces[0] = best.one;
-        faces[1] = best.other;
+        if (!right.take(*other, common)) return 0;
+        left.grow(*one);
+        right.grow(*other);
+        least({left.tree, right.tree, pose_of(nullptr), floor_of(left.tree, right.tree, pose_of(nullptr))}, limit, found, faces);
+        if (faces[0] >= 0) {
+            faces[0] = left.which[size_t(faces[0])];
+            faces[1] = right.which[size_t(faces[1])];
+        }
         return 0;
     } catch (const std::bad_alloc&) {
         return 1;
@@ -389,10 +683,10 @@ PROXIMITY_API int32_t proximity_nearest(
                 const auto next = waiting.back();
                 waiting.pop_back();
                 if (!(next.first < best.square)) continue;
-                const int32_t* link = tree->links + 2 * int64_t(next.second);
-                if (link[1] > 0) {
-                    for (int32_t k = 0; k < link[1]; ++k) {
-                        const int32_t triangle = tree->order[link[0] + k];
+                const int32_t* link = tree->links + 3 * int64_t(next.second);
+                if (link[0] < 0) {
+                    for (int32_t k = 0; k < link[2]; ++k) {
+                        const int32_t triangle = tree->order[link[1] + k];
                         Vec t[3];
                         corners_of(*tree, triangle, t);
                         if (offer(best, p, on_triangle(p, t))) best.other = triangle;

@@ -15,8 +15,15 @@ Numbers = NDArray[np.int64]
 
 class _View(ctypes.Structure):
     _fields_ = (
-        *((name, ctypes.c_void_p) for name in ("triangles", "order", "boxes", "links")),
+        *((name, ctypes.c_void_p) for name in ("triangles", "order", "boxes", "links", "oriented", "states")),
         ("nodes", ctypes.c_int64),
+    )
+
+
+class _SurfaceView(ctypes.Structure):
+    _fields_ = (
+        *((name, ctypes.c_void_p) for name in ("vertices", "corners")),
+        *((name, ctypes.c_int64) for name in ("count", "faces")),
     )
 
 
@@ -28,20 +35,50 @@ class Tree:
             raise ValueError("a triangle has a corner that is not a finite number")
         count = len(triangles)
         order = np.empty(count, np.int32)
-        boxes, links = np.empty((2 * count, 6)), np.empty((2 * count, 2), np.int32)
+        boxes, links = np.empty((2 * count, 6)), np.empty((2 * count, 3), np.int32)
         nodes = library().proximity_build(
             triangles.ctypes.data, count, order.ctypes.data, boxes.ctypes.data, links.ctypes.data
         )
         if nodes < 0:
             raise MemoryError("there is not enough memory for the boxes of a surface")
-        self._held = triangles, order, boxes, links
+        self._held = triangles, order, boxes, links, np.empty((nodes, 15)), np.zeros(nodes, np.uint8)
         self.view = ctypes.byref(_View(*(array.ctypes.data for array in self._held), nodes))
 
 
-def distance(one: Tree, other: Tree, limit: float) -> tuple[float, Floats, Floats, tuple[int, int]]:
-    """See `boxes.Gap`."""
+class Surface:
+    """Of vertices (n, 3) and triangles (m, 3) whose corners are among them. Raises ValueError for others, and for
+    coordinates that are no numbers."""
+
+    def __init__(self, vertices: Floats, triangles: NDArray[np.integer]) -> None:
+        points, corners = np.ascontiguousarray(vertices, np.float64), np.ascontiguousarray(triangles, np.int32)
+        if not np.isfinite(points).all():
+            raise ValueError("a vertex is not a finite point")
+        if len(corners) and not 0 <= int(corners.min()) <= int(corners.max()) < len(points):
+            raise ValueError("a triangle has a corner that is no vertex")
+        self._held = points, corners
+        self.view = ctypes.byref(_SurfaceView(points.ctypes.data, corners.ctypes.data, len(points), len(corners)))
+
+
+def distance(
+    one: Tree, other: Tree, limit: float, pose: Floats | None = None, first: tuple[int, int] = (-1, -1)
+) -> tuple[float, Floats, Floats, tuple[int, int]]:
+    """See `boxes.BoxTree.gap`; `pose` (4, 4) is contiguous, and `first` are triangles that there are."""
+    found, faces = np.empty(7), np.array(first, np.int32)
+    moved = None if pose is None else pose.ctypes.data
+    _check(library().proximity_distance(one.view, other.view, moved, limit, found.ctypes.data, faces.ctypes.data))
+    return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
+
+
+def near(
+    one: Surface, other: Surface, boxes: Floats, limit: float
+) -> tuple[float, Floats, Floats, tuple[int, int]]:
+    """The same of surfaces whose boxes (2, 2, 3), contiguous, are known, below a finite limit; no tree is kept."""
     found, faces = np.empty(7), np.empty(2, np.int32)
-    _check(library().proximity_distance(one.view, other.view, limit, found.ctypes.data, faces.ctypes.data))
+    _check(
+        library().proximity_near(
+            one.view, other.view, boxes.ctypes.data, limit, found.ctypes.data, faces.ctypes.data
+        )
+    )
     return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
 
 
@@ -77,4 +114,4 @@ def _check(status: int) -> None:
         raise MemoryError("there is not enough memory for what surfaces are asked")
 
 
-__all__ = ["Tree", "available", "distance", "nearest", "pieces", "windings"]
+__all__ = ["Surface", "Tree", "available", "distance", "near", "nearest", "pieces", "windings"]
