@@ -107,8 +107,8 @@ def main() -> None:
         f"{PARTS} parts, {triangles:,} triangles, {len(pairs)} pairs of near boxes, {len(near)} within {CLEARANCE} mm"
     )
     print(f"all of it {1e3 * ours:.1f} ms, with parts known from before {1e3 * again:.1f} ms, of which "
-          f"{1e3 * volumes:.1f} ms are the volumes of {len(overlapping)} overlaps; min_gap on those pairs, which tells no volume, "
-          f"{1e3 * gap_time:.1f} ms: {gap_time / ours:.1f}, {gap_time / again:.1f} and without volumes "
+          f"{1e3 * volumes:.1f} ms are the volumes of {len(overlapping)} overlaps; min_gap on those pairs, which "
+          f"tells no volume, {1e3 * gap_time:.1f} ms: {gap_time / ours:.1f}, {gap_time / again:.1f} and without volumes "
           f"{gap_time / (again - volumes):.1f} times; the same answer for {same} of {len(pairs)}, farthest apart "
           f"{worst:.1e} mm")  # fmt: skip
     fcl_time, fcl_gaps = best(lambda: by_fcl(bodies, pairs))
@@ -125,12 +125,12 @@ def main() -> None:
     ours, inside = best(lambda: tube.holds(points))
     rays = Rays(build(faces_of_polygons(list(tube.vertices[tube.triangles]))))
     batches = [slice(k, k + 50_000) for k in range(0, POINTS, 50_000)]
-    askew = sum(int((within(rays, points[batch]) != inside[batch]).sum()) for batch in batches)
+    askew = sum(int((within(rays, points[batch], 0.0) != inside[batch]).sum()) for batch in batches)
     across, sag = np.hypot(*points.T[:2]), 1.0 - np.cos(np.pi / 64)  # of the coarser one
     clear = ~(((across > 4 * (1 - sag)) & (across < 4)) | ((across > 2 * (1 - sag)) & (across < 2)))
     formula = (across < 4) & (across > 2) & (np.abs(points[:, 2]) < 4.5)
-    print(f"{POINTS:,} points in a tube of {len(tube.triangles)} triangles: {ours:.2f} s; {askew} differ from the parity of "
-          f"askew rays through a BSP tree, {int((inside != formula)[clear].sum())} of the {clear.sum():,} that are not "
+    print(f"{POINTS:,} points in a tube of {len(tube.triangles)} triangles: {ours:.2f} s; {askew} differ from the parity "
+          f"of askew rays through a BSP tree, {int((inside != formula)[clear].sum())} of the {clear.sum():,} that are not "
           f"beside its chords from the formula")  # fmt: skip
     try:
         start = time.perf_counter()
