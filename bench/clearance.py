@@ -108,9 +108,9 @@ def main() -> None:
     )
     print(f"all of it {1e3 * ours:.1f} ms, with parts known from before {1e3 * again:.1f} ms, of which "
           f"{1e3 * volumes:.1f} ms are the volumes of {len(overlapping)} overlaps; min_gap on those pairs, which "
-          f"tells no volume, {1e3 * gap_time:.1f} ms: {gap_time / ours:.1f}, {gap_time / again:.1f} and without volumes "
-          f"{gap_time / (again - volumes):.1f} times; the same answer for {same} of {len(pairs)}, farthest apart "
-          f"{worst:.1e} mm")  # fmt: skip
+          f"tells no volume, {1e3 * gap_time:.1f} ms: {gap_time / ours:.1f}, {gap_time / again:.1f} and without "
+          f"volumes {gap_time / (again - volumes):.1f} times; the same answer for {same} of {len(pairs)}, "
+          f"farthest apart {worst:.1e} mm")  # fmt: skip
     fcl_time, fcl_gaps = best(lambda: by_fcl(bodies, pairs))
     if fcl_gaps is None:
         print("python-fcl is not installed")
@@ -129,9 +129,10 @@ def main() -> None:
     across, sag = np.hypot(*points.T[:2]), 1.0 - np.cos(np.pi / 64)  # of the coarser one
     clear = ~(((across > 4 * (1 - sag)) & (across < 4)) | ((across > 2 * (1 - sag)) & (across < 2)))
     formula = (across < 4) & (across > 2) & (np.abs(points[:, 2]) < 4.5)
-    print(f"{POINTS:,} points in a tube of {len(tube.triangles)} triangles: {ours:.2f} s; {askew} differ from the parity "
-          f"of askew rays through a BSP tree, {int((inside != formula)[clear].sum())} of the {clear.sum():,} that are not "
-          f"beside its chords from the formula")  # fmt: skip
+    wrong = int((inside != formula)[clear].sum())
+    print(f"{POINTS:,} points in a tube of {len(tube.triangles)} triangles: {ours:.2f} s; {askew} differ from the "
+          f"parity of askew rays through a BSP tree, {wrong} of the {clear.sum():,} that are not beside its chords "
+          f"from the formula")  # fmt: skip
     try:
         start = time.perf_counter()
         told = trimesh.Trimesh(tube.vertices, tube.triangles, process=False).contains(points[:THEIRS])
