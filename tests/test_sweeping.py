@@ -1,164 +1,136 @@
-"""Frames along a path: orthonormal, across it, without turning about it, close enough together, closed where it is."""
+"""Bodies that are moved until they meet others: by formula, and by the volume that they share where they stopped."""
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from manifold3d import Manifold
 
-from solidtree.model.document.errors import Refusal
-from solidtree.model.outline.sweeping import path_frames, start_frame
-from solidtree.model.path import shapes
-from solidtree.model.path.path import Path
-from solidtree.model.spline.spline_fitting import interpolated
+from solidtree.model.partition import native as partition_native
+from solidtree.model.proximity import native
+from solidtree.model.proximity.bodies import Body, relation
+from solidtree.model.proximity.sweeping import Sweep
+from solidtree.model.solid.results import arrays_of
 
-
-def path(*commands):
-    return Path.of_commands(commands)
-
-
-ARC = path(("move", (0, 0)), ("cubic", (40, 0), (60, 30), (60, 60)))
-SPACE = path(("move", (0, 0, 0)), ("cubic", (0, 0, 30), (30, 0, 30), (30, 30, 60)))
-SQUARE = path(("move", (0, 0)), ("line", (20, 0)), ("line", (20, 20)), ("line", (0, 20)), ("close",))
+CUBE = Manifold.cube((10, 10, 10))
 
 
-def helix(radius=10.0, pitch=8.0, turns=2.0):
-    angle = np.linspace(0, 2 * np.pi * turns, 400)
-    points = np.column_stack((radius * np.cos(angle), radius * np.sin(angle), pitch * angle / (2 * np.pi)))
-    return Path.of_commands([("move", points[0]), ("spline", interpolated(points))])
+@pytest.fixture(params=["compiled", "numpy"], autouse=True)
+def way(request, monkeypatch):
+    """Both ways, where there are two."""
+    if request.param == "compiled" and not partition_native.available():
+        pytest.skip("the compiled extension is not here")
+    if request.param == "numpy":
+        monkeypatch.setattr(native, "available", lambda: False)
+    return request.param
 
 
-@pytest.mark.parametrize("along", [ARC, SPACE, helix()])
-def test_frames_are_orthonormal_and_across_the_path(along):
-    frames = path_frames(along, 0.01, 5)
-    square = frames.axes @ frames.axes.transpose(0, 2, 1)
-    np.testing.assert_allclose(square, np.broadcast_to(np.eye(3), square.shape), atol=1e-12)
-    assert (np.linalg.det(frames.axes) > 0).all()
-    chord = np.diff(frames.origins, axis=0)
-    chord /= np.linalg.norm(chord, axis=1)[:, None]
-    middle = frames.axes[1:, 2] + frames.axes[:-1, 2]
-    middle /= np.linalg.norm(middle, axis=1)[:, None]
-    np.testing.assert_allclose((chord * middle).sum(axis=1), 1, atol=1e-4)
+def body(solid: Manifold) -> Body:
+    return Body("", *arrays_of(solid.to_mesh64()), solid)
 
 
-@pytest.mark.parametrize("along", [ARC, SPACE, helix()])
-def test_the_lengths_are_those_of_the_path(along):
-    assert path_frames(along, 0.001, 5).length == pytest.approx(along.length(), rel=1e-6)
+def moved(solid: Manifold, by) -> Body:
+    return body(solid.translate([float(c) for c in by]))
 
 
-def test_along_a_helix_the_frame_turns_against_the_normal_as_its_torsion_says():
-    radius, pitch, turns = 10.0, 8.0, 2.0
-    frames = path_frames(helix(radius, pitch, turns), 1e-4, 5)
-    rise = pitch / (2 * np.pi)
-    torsion = rise / (radius**2 + rise**2)
-    inwards = -frames.origins * (1, 1, 0) / radius
-    x, y = frames.axes[:, 0], frames.axes[:, 1]
-    angle = np.unwrap(np.arctan2((y * inwards).sum(axis=1), (x * inwards).sum(axis=1)))
-    np.testing.assert_allclose(angle - angle[0], torsion * frames.lengths, atol=2e-3)
+def test_a_ball_stops_at_another_one():
+    ball = Manifold.sphere(2, 64)  # with a corner on the x axis
+    stop = Sweep(body(ball), [moved(ball, (10, 0, 0))]).stop((0, 0, 0), (20, 0, 0))
+    assert (stop.way, stop.other) == (pytest.approx(6, abs=1e-9), 0)
+    assert stop.point == pytest.approx((8, 0, 0), abs=1e-9)
+    assert Sweep(body(ball), [moved(ball, (10, 0, 0))]).stop((0, 0, 0), (5.9, 0, 0)) is None
+    assert Sweep(body(ball), [moved(ball, (10, 0, 0))]).stop((1, 0, 0), (0, 20, 0)) is None
 
 
-def test_a_finer_tolerance_follows_the_path_and_what_reaches_out_from_it():
-    """Between neighbouring frames the true place is no further from the chord than the tolerance."""
-    reach = 20.0
-    fine = path_frames(SPACE, 1e-5, reach)
-    for tolerance in (1.0, 0.1, 0.01):
-        coarse = path_frames(SPACE, tolerance, reach)
-        for offset in ((0, 0), (reach, 0), (-reach, 0), (0, reach), (0, -reach)):
-            near, true = (f.origins + (np.array(offset)[None, :, None] * f.axes[:, :2]).sum(axis=1)
-                          for f in (coarse, fine))  # fmt: skip
-            line = np.diff(near, axis=0)
-            share = np.einsum("nmj,mj->nm", true[:, None] - near[:-1], line) / (line**2).sum(axis=1)
-            foot = near[:-1] + np.clip(share, 0, 1)[..., None] * line
-            assert np.linalg.norm(true[:, None] - foot, axis=2).min(axis=1).max() < 1.1 * tolerance
-    assert len(path_frames(SPACE, 0.01, reach).lengths) < 10 * len(path_frames(SPACE, 1.0, reach).lengths) + 10
+@pytest.mark.parametrize("offset", [(0, 0, 0), (3, -2, 0), (0, 4, 0), (9.5, 9.5, 0)])
+def test_boxes_stop_face_to_face_however_they_are_aligned(offset):
+    """Also where corners meet corners and sides lie upon sides."""
+    sweep = Sweep(moved(CUBE, (*offset[:2], 25)), [body(CUBE)])
+    stop = sweep.stop((0, 0, 0), (0, 0, -40))
+    assert stop.way == pytest.approx(15, abs=1e-9) and stop.normal == pytest.approx((0, 0, 1))
+    pushed = sweep.stop((0, 0, -15), (0, 0, -1))
+    assert pushed.way == pytest.approx(0, abs=1e-9)
 
 
-def test_segments_say_how_many_frames_make_a_full_turn():
-    circle = shapes.ellipse((0, 0), 10, exact=True)
-    assert len(path_frames(circle, 1.0, 100, segments=32).origins) == 33
-    assert len(path_frames(SQUARE, 1.0, 100, segments=32).origins) == 5
+def test_what_is_flush_slides_and_lifts_freely():
+    floor = Manifold.cube((100, 100, 5)).translate((-50, -50, -5))
+    wall = CUBE.translate((-10, 0, 0))
+    sweep = Sweep(body(CUBE), [body(floor), body(wall)])
+    for free in ((20, 0, 0), (0, 20, 0), (0, -3, 0), (0, 0, 7), (5, 6, 0), (5, 6, 7)):
+        assert sweep.stop((0, 0, 0), free) is None
+    for blocked, other in (((0, 0, -1), 0), ((-1, 0, 0), 1), ((-1, 5, 3), 1), ((4, 0, -1e-3), 0)):
+        stop = sweep.stop((0, 0, 0), blocked)
+        assert (stop.way, stop.other) == (pytest.approx(0, abs=1e-9), other)
 
 
-@pytest.mark.parametrize(
-    ("along", "x", "y"),
-    [
-        (path(("move", (1, 2)), ("line", (5, 2))), (0, 1, 0), (0, 0, 1)),
-        (path(("move", (1, 2, 3)), ("line", (1, 2, 9))), (1, 0, 0), (0, 1, 0)),
-        (path(("move", (1, 2, 3)), ("line", (1, 2, -9))), (1, 0, 0), (0, -1, 0)),
-        (path(("move", (0, 0, 0)), ("line", (3, 0, 4))), (0, 1, 0), (-0.8, 0, 0.6)),
-    ],
-)
-def test_at_the_start_y_is_as_near_to_z_as_it_can_be(along, x, y):
-    frame = start_frame(along)
-    np.testing.assert_allclose(frame[:, 0], x, atol=1e-15)
-    np.testing.assert_allclose(frame[:, 1], y, atol=1e-15)
-    np.testing.assert_allclose(np.cross(x, y), frame[:, 2], atol=1e-15)
-    np.testing.assert_allclose(path_frames(along, 0.1).axes[0], frame[:, :3].T, atol=1e-15)
+def test_passing_a_corner_that_only_touches_is_free():
+    sweep = Sweep(moved(CUBE, (10, 10, 0)), [body(CUBE)])
+    for free in ((-15, 0, 0), (0, -15, 0), (-15, 0, 3)):
+        assert sweep.stop((0, 0, 0), free) is None
+    assert sweep.stop((0, 0, 0), (-1, -1, 0)).way == pytest.approx(0, abs=1e-9)
 
 
-def test_a_direction_is_found_where_the_path_begins_with_a_doubled_point():
-    along = path(("move", (0, 0)), ("line", (0, 0)), ("cubic", (0, 0), (10, 0), (20, 20)))
-    np.testing.assert_allclose(start_frame(along)[:, 2], (1, 0, 0), atol=1e-12)
+def test_sides_that_cross_stop_each_other():
+    roof = Manifold.cube((30, 4, 4), True).rotate((45, 0, 0))  # its ridges run along x
+    other = Manifold.cube((4, 30, 4), True).rotate((0, 45, 0)).translate((0, 0, 20))
+    stop = Sweep(body(other), [body(roof)]).stop((0, 0, 0), (0, 0, -30))
+    assert stop.way == pytest.approx(20 - 4 * np.sqrt(2), abs=1e-9)
+    assert stop.point == pytest.approx((0, 0, 2 * np.sqrt(2)), abs=1e-9) and stop.normal == pytest.approx((0, 0, 1))
 
 
-@pytest.mark.parametrize("mitred", [True, False])
-@pytest.mark.parametrize("closed", [SQUARE, shapes.ellipse((0, 0), 10, exact=True)])
-def test_a_closed_path_ends_as_it_began(closed, mitred):
-    frames = path_frames(closed, 0.01, 3, mitred=mitred)
-    assert frames.closed
-    np.testing.assert_allclose(frames.origins[-1], frames.origins[0], atol=1e-12)
-    np.testing.assert_allclose(frames.axes[:, 1, 2], 1, atol=1e-12)
-    if mitred or closed is not SQUARE:
-        np.testing.assert_allclose(frames.axes[-1], frames.axes[0], atol=1e-9)
+def test_what_overlaps_at_first_may_be_taken_out():
+    sweep = Sweep(moved(CUBE, (5, 0, 0)), [body(CUBE), moved(CUBE, (30, 0, 0))])
+    assert sweep.stop((0, 0, 0), (-3, 0, 0)) is None
+    assert sweep.stop((0, 0, 0), (40, 0, 0)).other == 1
 
 
-def test_a_closed_path_in_space_spreads_what_it_turned_by():
-    angle = np.linspace(0, 2 * np.pi, 49)[:-1]
-    waves = (np.sin(angle) + 2 * np.sin(2 * angle), np.cos(angle) - 2 * np.cos(2 * angle), -np.sin(3 * angle))
-    points = 10 * np.column_stack(waves)  # a trefoil knot
-    knot = Path.of_commands([("move", points[0]), ("spline", interpolated(points, ends="closed")), ("close",)])
-    frames = path_frames(knot, 1e-4, 5)
-    np.testing.assert_allclose(frames.axes[-1], frames.axes[0], atol=1e-9)
-    across = 0.5 * (frames.axes[1:, 1] + frames.axes[:-1, 1])
-    spin = (np.diff(frames.axes[:, 0], axis=0) * across).sum(axis=1)
-    speed = spin.sum() / frames.length
-    assert abs(spin.sum()) > 0.1
-    np.testing.assert_allclose(spin / np.diff(frames.lengths), speed, rtol=0.02)
+def test_a_thin_wall_is_not_jumped_over():
+    wall = Manifold.cube((1e-3, 50, 50), True).translate((500, 0, 0))
+    assert Sweep(body(Manifold.cube((1, 1, 1), True)), [body(wall)]).stop((0, 0, 0), (1e4, 0, 0)).way == pytest.approx(
+        500 - 0.5 - 5e-4, abs=1e-6
+    )
 
 
-def test_a_corner_is_mitred_in_its_bisector_plane():
-    bend = path(("move", (0, 0)), ("line", (10, 0)), ("line", (10, 10)))
-    frames = path_frames(bend, 0.1)
-    assert frames.corners.tolist() == [False, True, False]
-    assert frames.turns[1] == pytest.approx(90)
-    np.testing.assert_allclose(frames.axes[1], [(-1, 1, 0), (0, 0, 1), (np.sqrt(0.5), np.sqrt(0.5), 0)], atol=1e-12)
-    np.testing.assert_allclose(frames.axes[2], [(-1, 0, 0), (0, 0, 1), (0, 1, 0)], atol=1e-12)
+def test_sliding_down_a_slope_and_into_a_corner():
+    slope = Manifold.cube((100, 100, 10), True).translate((0, 0, -5)).rotate((0, 30, 0))
+    ball = Manifold.sphere(1, 16)
+    came, stops = Sweep(moved(ball, (0, 0, 5)), [body(slope)]).slid((0, 0, 0), (0, 0, -10))
+    normal = np.array((np.sin(np.pi / 6), 0, np.cos(np.pi / 6)))
+    assert len(stops) == 1 and stops[0].normal == pytest.approx(normal, abs=1e-9)
+    rest = 10 - stops[0].way
+    assert came == pytest.approx(np.array((0, 0, -10)) + rest * normal[2] * normal, abs=1e-6)
+    floor, left = Manifold.cube((40, 40, 5)).translate((0, 0, -5)), Manifold.cube((5, 40, 40)).translate((-5, 0, 0))
+    back = Manifold.cube((40, 5, 40)).translate((0, -5, 0))
+    sweep = Sweep(moved(CUBE, (3, 4, 5)), [body(floor), body(left), body(back)])
+    came, stops = sweep.slid((0, 0, 0), (-20, -20, -20))
+    assert came == pytest.approx((-3, -4, -5), abs=1e-6) and {stop.other for stop in stops} == {0, 1, 2}
 
 
-def test_a_corner_that_is_not_mitred_has_the_frames_before_and_after_it():
-    bend = path(("move", (0, 0)), ("line", (10, 0)), ("line", (10, 10)))
-    frames = path_frames(bend, 0.1, mitred=False)
-    np.testing.assert_allclose(frames.lengths, [0, 10, 10, 20])
-    np.testing.assert_allclose(frames.axes[:, 2], [(1, 0, 0), (1, 0, 0), (0, 1, 0), (0, 1, 0)], atol=1e-12)
-    assert frames.corners.tolist() == [False, True, True, False]
+@settings(deadline=None, max_examples=15)
+@given(st.integers(0, 10**6))
+def test_at_the_stop_nothing_is_shared_and_a_little_farther_something_is(seed):
+    rng = np.random.default_rng(seed)
+    kinds = (Manifold.sphere(3, 12), Manifold.cylinder(6, 2, 1, 8, True), Manifold.cube((4, 4, 4), True)
+             - Manifold.cube((2, 2, 5), True))  # fmt: skip
+    one, other = (kinds[k].rotate(rng.uniform(0, 360, 3).tolist()) for k in rng.integers(0, 3, 2))
+    start = 15 * rng.normal(size=3) / 2
+    start *= 15 / np.linalg.norm(start)
+    direction = rng.normal(size=3) - start
+    stop = Sweep(moved(one, start), [body(other)]).stop((0, 0, 0), 2 * direction)
+    if stop is None:
+        for part in np.linspace(0, 2, 80):
+            assert (one.translate((start + part * direction).tolist()) ^ other).volume() < 1e-6
+        return
+    along = direction / np.linalg.norm(direction)
+    at = relation(moved(one, start + stop.way * along), body(other))
+    assert at.kind == "touching" or (at.kind == "apart" and at.gap < 1e-7)
+    assert along @ stop.normal < 0
+    assert (one.translate((start + (stop.way + 0.05) * along).tolist()) ^ other).volume() > 0
 
 
-def test_steps_can_be_limited():
-    straight = path(("move", (0, 0)), ("line", (10, 0)))
-    np.testing.assert_allclose(path_frames(straight, 1.0, step=2.5).lengths, [0, 2.5, 5, 7.5, 10])
-
-
-@pytest.mark.parametrize(
-    ("along", "words"),
-    [
-        (Path(()), "empty"),
-        (path(("move", (0, 0)), ("line", (1, 0)), ("move", (5, 5)), ("line", (6, 5))), "2 contours"),
-        (path(("move", (1, 1)), ("line", (1, 1))), "point"),
-        (path(("move", (0, 0)), ("line", (10, 0)), ("line", (0, 1))), "turns back by 174° at 10 mm"),
-    ],
-)
-def test_what_nothing_can_be_drawn_along_is_refused(along, words):
-    with pytest.raises(Refusal, match=words):
-        path_frames(along, 0.1)
-
-
-def test_a_cusp_within_a_curve_makes_no_endless_steps():
-    cusp = path(("move", (0, 0)), ("cubic", (20, 20), (0, 20), (20, 0)))
-    assert len(path_frames(cusp, 0.01, 5).origins) < 5000
+def test_nothing_holds_back_nothing():
+    empty = Body("", np.zeros((0, 3)), np.zeros((0, 3), int))
+    assert Sweep(empty, [body(CUBE)]).stop((0, 0, 0), (1, 0, 0)) is None
+    assert Sweep(body(CUBE), [empty]).stop((0, 0, 0), (1, 0, 0)) is None
+    assert Sweep(body(CUBE), []).slid((0, 0, 0), (1, 0, 0))[0].tolist() == [1, 0, 0]
+    assert Sweep(body(CUBE), [moved(CUBE, (10, 0, 0))]).stop((0, 0, 0), (0, 0, 0)) is None
