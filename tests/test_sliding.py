@@ -9,7 +9,7 @@ from manifold3d import Manifold
 from solidtree.model.partition import native as partition_native
 from solidtree.model.proximity import native
 from solidtree.model.proximity.bodies import Body, relation
-from solidtree.model.proximity.sweeping import Sweep
+from solidtree.model.proximity.sliding import Sweep
 from solidtree.model.solid.results import arrays_of
 
 CUBE = Manifold.cube((10, 10, 10))
