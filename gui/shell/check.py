@@ -15,7 +15,7 @@ from .parameters import read_with_values
 def add_options(command: argparse.ArgumentParser) -> None:
     """The options of `check`."""
     command.add_argument("file", metavar="FILE", help="a project or anything that can be imported")
-    command.add_argument("--clearance", type=_clearance, default=0.0, metavar="MM", help="the least gap; default 0")
+    command.add_argument("--clearance", type=_clearance, metavar="MM", help="the least gap; default: the document's")
     command.add_argument("--tolerance", type=positive, default=TOLERANCE, metavar="MM", help="default 0.05")
     add_parameter_options(command)
 

@@ -69,11 +69,15 @@ def distance(
     return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
 
 
-def near(one: Surface, other: Surface, boxes: Floats, limit: float) -> tuple[float, Floats, Floats, tuple[int, int]]:
+def near(
+    one: Surface, other: Surface, boxes: Floats, limit: float
+) -> tuple[float, Floats, Floats, tuple[int, int]]:
     """The same of surfaces whose boxes (2, 2, 3), contiguous, are known, below a finite limit; no tree is kept."""
     found, faces = np.empty(7), np.empty(2, np.int32)
     _check(
-        library().proximity_near(one.view, other.view, boxes.ctypes.data, limit, found.ctypes.data, faces.ctypes.data)
+        library().proximity_near(
+            one.view, other.view, boxes.ctypes.data, limit, found.ctypes.data, faces.ctypes.data
+        )
     )
     return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
 

@@ -55,7 +55,7 @@ def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
 
 
 def clearances(
-    solids: Document | Iterable[Node], clearance: float = 0.0, tolerance: float = 0.05
+    solids: Document | Iterable[Node], clearance: float | None = None, tolerance: float = 0.05
 ) -> list[dict[str, Any]]:
     """The pairs of visible solids that overlap or whose gap is below the clearance, as `solidtree check` has them.
     Raises Refusal where a solid failed, since nothing is known of its pairs.
@@ -76,7 +76,7 @@ def clearances(
 
 
 def _bodies(one: Node, other: Node, tolerance: float) -> tuple[Body, Body]:
-    from ..proximity.checking import body_of
+    from ..proximity.memo import body_of
 
     results = evaluate(one, other, tolerance=tolerance).solids
     if len(results) != 2:
