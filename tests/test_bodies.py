@@ -122,7 +122,7 @@ def test_scripts_refuse_what_has_no_answer():
     with pytest.raises(Refusal, match=r"“Ground”.*without end"):  # and not an empty list: nobody has looked
         clearances([box(1), halfspace().named("Ground")], 1)
     for clearance in (-1, np.nan, np.inf):
-        with pytest.raises(Refusal, match="a clearance is 0 mm or more"):
+        with pytest.raises(Refusal, match="a clearance"):
             clearances([box(1), box(1).at(3)], clearance)
 
 
