@@ -9,6 +9,9 @@ from ..document.errors import Refusal
 from ..document.tree import find
 from ..proximity.checks import PairCheck
 
+TOLD = 12
+"""How many names a refusal tells."""
+
 
 def set_clearance(document: Document, clearance: float) -> Document:
     """Ask all pairs of solids to keep this clearance, in mm; 0: not to overlap."""
@@ -33,6 +36,16 @@ def check_pair(
         pairs.append(asked)
     checks = document.checks.with_(pairs=tuple(pairs))
     return document if checks == document.checks else document.with_(checks=checks)
+
+
+def solid_called(document: Document, name: str) -> str:
+    """The id of the solid with this name. Raises Refusal."""
+    for root in document.solids:
+        if root.name == name:
+            return root.id
+    names = [f"“{root.name}”" for root in document.solids]
+    told = ", ".join(names if len(names) <= TOLD else [*names[:TOLD], f"{len(names) - TOLD} more"])
+    raise Refusal(f"there is no solid called “{name}”; there is {told or 'none at all'}")
 
 
 def with_successors(document: Document, successors: Mapping[str, str]) -> Document:
