@@ -14,7 +14,7 @@ from manifold3d import Mesh64
 from ...model.image.pictures import encoded
 from ...model.project.disk import replace_file
 from ...model.proximity.boxes import Floats
-from ...model.proximity.findings import Finding
+from ...model.proximity.findings import OVERLAP, Finding
 from ...model.proximity.report_page import ONE, OTHER, SHARED, Figure, page_of
 from ...model.solid.display import DisplayMesh, display_mesh
 from ...render.camera import Camera, fit, project
@@ -33,7 +33,7 @@ SIZE = (720, 500)
 """Of a picture, in pixels; on the page it is half the width of an A4 sheet."""
 VIEWS = ("front-right-top", "front-left-top")
 """Whichever looks more across the gap is taken."""
-ROOM = 6.0
+AROUND_OVERLAP, AROUND_GAP = 2.5, 6.0
 """The close picture shows so many times the place."""
 LEAST = 0.02
 """And at least this part of the whole pair."""
@@ -65,7 +65,8 @@ def _figures(finding: Finding, pair: Sequence[Standing]) -> list[Figure]:
     bounds = np.array([one.body.bounds for one in pair])
     whole = np.array([bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)])
     middle, size = finding.bounds.mean(axis=0), float(np.ptp(whole, axis=0).max())
-    half = max(ROOM * float(np.ptp(finding.bounds, axis=0).max()), LEAST * size) / 2.0
+    around = AROUND_OVERLAP if finding.fault == OVERLAP else AROUND_GAP
+    half = max(around * float(np.ptp(finding.bounds, axis=0).max()), LEAST * size) / 2.0
     place = np.array([middle - half, middle + half])
     view = _view_across(finding)
     found = [_figure(finding, meshes, _camera(view, whole), "The pair")]
