@@ -98,9 +98,10 @@ def _declared(compiled: ctypes.CDLL) -> ctypes.CDLL:
         ("bsp_fans", None, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS)),
         ("proximity_build", _COUNT, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS, _ADDRESS)),
         ("proximity_distance", _NUMBER, (_ADDRESS, _ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
-        ("proximity_near", _NUMBER, (_ADDRESS, _ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
+        ("proximity_near", _NUMBER, (*4 * (_ADDRESS,), _COUNT, _ADDRESS, _ADDRESS)),
         ("proximity_nearest", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, ctypes.c_double, _ADDRESS, _ADDRESS, _ADDRESS)),
         ("proximity_pieces", None, (_ADDRESS, _COUNT, _COUNT, _ADDRESS)),
+        ("proximity_windings_of", None, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),
         ("proximity_windings", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),
     ):
         function = getattr(compiled, name)

@@ -6,8 +6,10 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <exception>
 #include <limits>
 #include <new>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,16 @@
 
 namespace {
 
+struct Vec {
+    double x, y, z;
+};
+
+// A box along the axes of what it holds: its middle, its axes as unit vectors, and half of its length along each.
+struct Oriented {
+    Vec middle, axes[3];
+    double half[3];
+};
+
 // What crosses the border; native.py declares the same. A node has `link[2]` triangles, from place `link[1]` of `order`
 // on; an inner one's children are `link[0]` and the one after it, a leaf has -1 there. `oriented` and `states` are filled
 // as they are needed, by whoever comes first: see `oriented_box`.
@@ -27,17 +39,14 @@ struct BoxTree {
     const int32_t* order;     // (n,)
     const double* boxes;      // (nodes, 6): low, high
     const int32_t* links;     // (nodes, 3)
-    double* oriented;         // (nodes, 15)
+    Oriented* oriented;       // (nodes,), 15 numbers each
     uint8_t* states;          // (nodes,)
     int64_t nodes;
 };
 
-constexpr int LEAF = 2;
+constexpr int LEAF = 3;
+constexpr int64_t PAIRS = 16;  // for which another thread is worth its start
 constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
-struct Vec {
-    double x, y, z;
-};
 
 inline Vec at(const double* p) { return {p[0], p[1], p[2]}; }
 inline Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
@@ -173,20 +182,14 @@ inline void corners_of(const BoxTree& tree, int32_t triangle, Vec* t) {
     for (int k = 0; k < 3; ++k) t[k] = at(from + 3 * k);
 }
 
-// A box along the axes of what it holds: its middle, its axes as unit vectors, and half of its length along each.
-struct Oriented {
-    Vec middle, axes[3];
-    double half[3];
-};
-
 inline double part(Vec v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
 // The eigenvectors of a symmetric matrix, by Jacobi's rotations (1846).
 void eigenvectors(double m[3][3], Vec axes[3]) {
     double v[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    for (int sweep = 0; sweep < 8; ++sweep) {
+    for (int sweep = 0; sweep < 4; ++sweep) {
         const double off = std::fabs(m[0][1]) + std::fabs(m[0][2]) + std::fabs(m[1][2]);
-        if (!(off > 1e-9 * (m[0][0] + m[1][1] + m[2][2]))) break;
+        if (!(off > 1e-3 * (m[0][0] + m[1][1] + m[2][2]))) break;  // the box is as good with axes a little beside
         for (int p = 0; p < 2; ++p)
             for (int q = p + 1; q < 3; ++q) {
                 if (m[p][q] == 0.0) continue;
@@ -217,15 +220,11 @@ void eigenvectors(double m[3][3], Vec axes[3]) {
     axes[2] = cross(axes[0], axes[1]);
 }
 
-// Around a node's triangles, along the axes in which their corners spread (Gottschalk, Lin and Manocha 1996, "OBBTree").
-Oriented around(const BoxTree& tree, int32_t node) {
-    const int32_t* link = tree.links + 3 * int64_t(node);
-    const double* box = tree.boxes + 6 * int64_t(node);
-    const Vec centre = 0.5 * (at(box) + at(box + 3));
+// The axes in which the corners of a node's triangles spread (Gottschalk, Lin and Manocha 1996, "OBBTree").
+void spread(const BoxTree& tree, const int32_t* link, Vec centre, Vec axes[3]) {
     double sum[3] = {0, 0, 0}, square[3][3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
-    const int32_t* order = tree.order + link[1];
     for (int32_t i = 0; i < link[2]; ++i) {
-        const double* from = tree.triangles + 9 * int64_t(order[i]);
+        const double* from = tree.triangles + 9 * int64_t(tree.order[link[1] + i]);
         for (int k = 0; k < 9; k += 3) {
             const double x = from[k] - centre.x, y = from[k + 1] - centre.y, z = from[k + 2] - centre.z;
             sum[0] += x;
@@ -242,11 +241,35 @@ Oriented around(const BoxTree& tree, int32_t node) {
     const double count = 3.0 * link[2];
     for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j) square[j][i] = square[i][j] = square[i][j] - sum[i] * sum[j] / count;
+    eigenvectors(square, axes);
+}
+
+// Along the longest side of a triangle and square to it; false where it has no area to speak of.
+bool along_sides(const Vec* t, Vec axes[3]) {
+    Vec longest = t[1] - t[0];
+    for (const Vec& side : {t[2] - t[1], t[0] - t[2]})
+        if (dot(side, side) > dot(longest, longest)) longest = side;
+    const Vec normal = cross(t[1] - t[0], t[2] - t[0]);
+    const double square = dot(longest, longest), area = dot(normal, normal);
+    if (!(area > 1e-20 * square * square)) return false;
+    axes[0] = (1.0 / std::sqrt(square)) * longest;
+    axes[2] = (1.0 / std::sqrt(area)) * normal;
+    axes[1] = cross(axes[2], axes[0]);
+    return true;
+}
+
+// Around a node's triangles; those of a leaf lie about as its first one does.
+Oriented around(const BoxTree& tree, int32_t node) {
+    const int32_t* link = tree.links + 3 * int64_t(node);
+    const double* box = tree.boxes + 6 * int64_t(node);
+    const Vec centre = 0.5 * (at(box) + at(box + 3));
     Oriented found;
-    eigenvectors(square, found.axes);
+    Vec t[3];
+    corners_of(tree, tree.order[link[1]], t);
+    if (link[0] >= 0 || !along_sides(t, found.axes)) spread(tree, link, centre, found.axes);
     double low[3] = {INFINITE, INFINITE, INFINITE}, high[3] = {-INFINITE, -INFINITE, -INFINITE};
     for (int32_t i = 0; i < link[2]; ++i) {
-        const double* from = tree.triangles + 9 * int64_t(order[i]);
+        const double* from = tree.triangles + 9 * int64_t(tree.order[link[1] + i]);
         for (int k = 0; k < 9; k += 3) {
             const Vec p = at(from + k) - centre;
             for (int axis = 0; axis < 3; ++axis) {
@@ -266,21 +289,18 @@ Oriented around(const BoxTree& tree, int32_t node) {
 
 enum : uint8_t { UNKNOWN, WRITING, KNOWN };
 
-// Made when it is first asked for. Of several threads that ask at once one writes it down.
-Oriented oriented_box(const BoxTree& tree, int32_t node) {
+// Made when it is first asked for. Of several threads that ask at once one writes it down, the others have their `own`.
+const Oriented& oriented_box(const BoxTree& tree, int32_t node, Oriented& own) {
     auto* state = reinterpret_cast<std::atomic<uint8_t>*>(tree.states + node);
-    double* kept = tree.oriented + 15 * int64_t(node);
-    if (state->load(std::memory_order_acquire) == KNOWN)
-        return {at(kept), {at(kept + 3), at(kept + 6), at(kept + 9)}, {kept[12], kept[13], kept[14]}};
-    const Oriented found = around(tree, node);
+    Oriented& kept = tree.oriented[node];
+    if (state->load(std::memory_order_acquire) == KNOWN) return kept;
+    own = around(tree, node);
     uint8_t before = UNKNOWN;
     if (state->compare_exchange_strong(before, WRITING, std::memory_order_acquire)) {
-        const Vec vectors[4] = {found.middle, found.axes[0], found.axes[1], found.axes[2]};
-        for (int k = 0; k < 12; ++k) kept[k] = part(vectors[k / 3], k % 3);
-        for (int k = 0; k < 3; ++k) kept[12 + k] = found.half[k];
+        kept = own;
         state->store(KNOWN, std::memory_order_release);
     }
-    return found;
+    return own;
 }
 
 // Takes points of the other surface into the space of the first.
@@ -311,22 +331,22 @@ struct Pair {
     bool opens;  // the first one's is the larger box
 };
 
-// The square of what two boxes are apart at the least: along the axes of the one, or of the other.
-double apart(const Oriented& one, const Oriented& other, double floor) {
+// The square of what two boxes are apart at the least, as far as it counts up to `most`: along the axes of the one, or of
+// the other.
+double apart(const Oriented& one, const Oriented& other, double floor, double most) {
     const Vec way = other.middle - one.middle;
-    double turn[3][3], mine[3], theirs[3], first = 0.0, second = 0.0;
+    double turn[3][3], first = 0.0, second = 0.0;
     for (int i = 0; i < 3; ++i) {
-        mine[i] = dot(way, one.axes[i]);
-        theirs[i] = dot(way, other.axes[i]);
         for (int j = 0; j < 3; ++j) turn[i][j] = std::fabs(dot(one.axes[i], other.axes[j]));
-    }
-    for (int i = 0; i < 3; ++i) {
-        const double gap = std::fabs(mine[i]) - one.half[i] - floor -
+        const double gap = std::fabs(dot(way, one.axes[i])) - one.half[i] - floor -
             (turn[i][0] * other.half[0] + turn[i][1] * other.half[1] + turn[i][2] * other.half[2]);
-        const double counter = std::fabs(theirs[i]) - other.half[i] - floor -
-            (turn[0][i] * one.half[0] + turn[1][i] * one.half[1] + turn[2][i] * one.half[2]);
         if (gap > 0.0) first += gap * gap;
-        if (counter > 0.0) second += counter * counter;
+    }
+    if (first >= most) return first;
+    for (int i = 0; i < 3; ++i) {
+        const double gap = std::fabs(dot(way, other.axes[i])) - other.half[i] - floor -
+            (turn[0][i] * one.half[0] + turn[1][i] * one.half[1] + turn[2][i] * one.half[2]);
+        if (gap > 0.0) second += gap * gap;
     }
     return std::max(first, second);
 }
@@ -343,13 +363,16 @@ Pair pair_of(const Couple& of, int32_t i, int32_t j, double most) {
         }
         if (!(square < most)) return {square, 0.0, i, j, false};
     }
-    const Oriented one = oriented_box(of.one, i);
-    Oriented other = oriented_box(of.other, j);
-    other.middle = of.pose.placed(other.middle);
-    if (of.pose.moves)
-        for (Vec& axis : other.axes) axis = of.pose.turned(axis);
+    Oriented spare, spares;
+    const Oriented &one = oriented_box(of.one, i, spare), &stored = oriented_box(of.other, j, spares);
+    if (of.pose.moves) {
+        spares = {of.pose.placed(stored.middle),
+            {of.pose.turned(stored.axes[0]), of.pose.turned(stored.axes[1]), of.pose.turned(stored.axes[2])},
+            {stored.half[0], stored.half[1], stored.half[2]}};
+    }
+    const Oriented& other = of.pose.moves ? spares : stored;
     const Vec way = other.middle - one.middle;
-    return {apart(one, other, of.floor), dot(way, way), i, j, length_of(one) >= length_of(other)};
+    return {apart(one, other, of.floor, most), dot(way, way), i, j, length_of(one) >= length_of(other)};
 }
 
 // Whether the plane of a triangle keeps another one as far from it as the best way is long.
@@ -361,7 +384,7 @@ inline bool beyond(const Vec* plane, const Vec* t, double square) {
     return height * height > square * dot(normal, normal);
 }
 
-void try_triangles(const Couple& of, int32_t left, int32_t right, const Vec* t, const Vec* s, Best& best) {
+void try_triangles(int32_t left, int32_t right, const Vec* t, const Vec* s, Best& best) {
     if (!nearest_of(t, s, best)) return;
     best.one = left;
     best.other = right;
@@ -390,7 +413,7 @@ void leaves(const Couple& of, int32_t i, int32_t j, Best& best) {
             const double apart = begins - ends;
             if (apart > 0.0 && apart * apart >= best.square) continue;
             if (beyond(t, s, best.square) || beyond(s, t, best.square)) continue;
-            try_triangles(of, left, right, t, s, best);
+            try_triangles(left, right, t, s, best);
             if (best.square == 0.0) return;
         }
     }
@@ -424,15 +447,16 @@ void descend(const Couple& of, Best& best) {
 void least(const Couple& of, double limit, double* found, int32_t* faces) {
     Best best = {limit * limit, {0, 0, 0}, {0, 0, 0}, -1, -1, {0, 0, 0}};
     if (of.one.nodes > 0 && of.other.nodes > 0) {
-        const Oriented one = oriented_box(of.one, 0), other = oriented_box(of.other, 0);
-        const Vec way = of.pose.placed(other.middle) - one.middle;
+        const double *box = of.one.boxes, *counter = of.other.boxes;
+        const Vec middle = 0.5 * (at(counter) + at(counter + 3));
+        const Vec way = of.pose.placed(middle) - 0.5 * (at(box) + at(box + 3));
         const double square = dot(way, way);
         if (square > 0.0 && std::isfinite(square)) best.along = (1.0 / std::sqrt(square)) * way;
         if (faces[0] >= 0) {
             Vec t[3], s[3];
             corners_of(of.one, faces[0], t);
             corners_of(of, faces[1], s);
-            try_triangles(of, faces[0], faces[1], t, s, best);
+            try_triangles(faces[0], faces[1], t, s, best);
         }
         descend(of, best);
     }
@@ -457,6 +481,13 @@ inline int side_of(Vec a, Vec b, double x, double y) {
     return sign;  // b.x > a.x; sides that are points lie beside everything alike
 }
 
+// What a ray upwards from p adds where it goes through a triangle.
+inline int through(const Vec* t, Vec p) {
+    const int side = side_of(t[0], t[1], p.x, p.y);
+    if (side_of(t[1], t[2], p.x, p.y) != side || side_of(t[2], t[0], p.x, p.y) != side) return 0;
+    return dot(cross(t[1] - t[0], t[2] - t[0]), t[0] - p) * side > 0.0 ? side : 0;
+}
+
 int32_t winding(const BoxTree& tree, Vec p, std::vector<int32_t>& waiting) {
     int32_t found = 0;
     waiting.assign(1, 0);
@@ -474,10 +505,7 @@ int32_t winding(const BoxTree& tree, Vec p, std::vector<int32_t>& waiting) {
         for (int32_t k = 0; k < link[2]; ++k) {
             Vec t[3];
             corners_of(tree, tree.order[link[1] + k], t);
-            const int side = side_of(t[0], t[1], p.x, p.y);
-            if (side_of(t[1], t[2], p.x, p.y) != side || side_of(t[2], t[0], p.x, p.y) != side) continue;
-            const Vec normal = cross(t[1] - t[0], t[2] - t[0]);
-            if (dot(normal, t[0] - p) * side > 0.0) found += side;
+            found += through(t, p);
         }
     }
     return found;
@@ -549,13 +577,14 @@ struct Surface {
 // A tree of some triangles of a surface, `which` of them, that lasts as long as a question.
 struct Cutout {
     std::vector<int32_t> which, order, links;
-    std::vector<double> triangles, boxes, oriented;
-    std::vector<uint8_t> states;
+    std::vector<double> triangles, boxes;
+    std::vector<Oriented> oriented;
+    std::vector<uint8_t> states, codes;
     BoxTree tree;
 
     // Those whose boxes reach into a box, which is drawn in to what they hold of it; false for none.
     bool take(const Surface& surface, double* box) {
-        std::vector<uint8_t> codes(static_cast<size_t>(surface.count));
+        codes.resize(static_cast<size_t>(surface.count));
         for (int64_t i = 0; i < surface.count; ++i) {
             const double* p = surface.vertices + 3 * i;
             codes[size_t(i)] = uint8_t((p[0] < box[0]) | (p[1] < box[1]) << 1 | (p[2] < box[2]) << 2 |
@@ -593,7 +622,7 @@ struct Cutout {
         boxes.resize(12 * count);
         links.resize(6 * count);
         const int64_t nodes = build(triangles.data(), int64_t(count), order.data(), boxes.data(), links.data());
-        oriented.resize(15 * size_t(nodes));
+        oriented.resize(size_t(nodes));
         states.assign(size_t(nodes), UNKNOWN);
         tree = {triangles.data(), order.data(), boxes.data(), links.data(), oriented.data(), states.data(), nodes};
     }
@@ -607,6 +636,34 @@ double floor_of(const BoxTree& one, const BoxTree& other, const Pose& pose) {
             for (int k = 0; k < 6; ++k) most = std::max(most, std::fabs(tree->boxes[k]));
     if (pose.moves) most = std::max(most, std::max(std::fabs(pose.by.x), std::max(std::fabs(pose.by.y), std::fabs(pose.by.z))));
     return 32.0 * std::numeric_limits<double>::epsilon() * most;
+}
+
+// The least distance of two surfaces below `limit`; `boxes` are theirs.
+void near(
+    const Surface& one, const Surface& other, const double* const boxes[2], double limit, Cutout& left, Cutout& right,
+    double* found, int32_t* faces) {
+    found[0] = INFINITE;
+    for (int k = 1; k < 7; ++k) found[k] = 0.0;
+    faces[0] = faces[1] = -1;
+    const double reach = limit * (1.0 + 1e-9);
+    double common[6];
+    for (int k = 0; k < 3; ++k) {
+        common[k] = std::max(boxes[1][k] - reach, boxes[0][k]);
+        common[3 + k] = std::min(boxes[1][3 + k] + reach, boxes[0][3 + k]);
+    }
+    if (!left.take(one, common)) return;
+    for (int k = 0; k < 3; ++k) {
+        common[k] -= reach;
+        common[3 + k] += reach;
+    }
+    if (!right.take(other, common)) return;
+    left.grow(one);
+    right.grow(other);
+    const Pose still = pose_of(nullptr);
+    least({left.tree, right.tree, still, floor_of(left.tree, right.tree, still)}, limit, found, faces);
+    if (faces[0] < 0) return;
+    faces[0] = left.which[size_t(faces[0])];
+    faces[1] = right.which[size_t(faces[1])];
 }
 
 }  // namespace
@@ -634,38 +691,34 @@ PROXIMITY_API int32_t proximity_distance(
     }
 }
 
-// The same of surfaces without trees, where `limit` is finite: of what each has near the box of the other. `boxes` (2, 6)
-// are theirs.
+// The same of pairs (count, 2) of surfaces without trees, each below a finite limit of its own: of what one has near the
+// box of the other. `boxes` (surfaces, 2, 3) are theirs; found (count, 7), faces (count, 2). All processors work on it.
 PROXIMITY_API int32_t proximity_near(
-    const Surface* one, const Surface* other, const double* boxes, double limit, double* found, int32_t* faces) {
+    const Surface* const* surfaces, const double* boxes, const int32_t* pairs, const double* limits, int64_t count,
+    double* found, int32_t* faces) {
+    std::atomic<int64_t> next(0);
+    std::atomic<bool> full(false);
+    const auto work = [&]() {
+        try {
+            Cutout left, right;
+            for (int64_t k = next++; k < count && !full; k = next++) {
+                const int32_t one = pairs[2 * k], other = pairs[2 * k + 1];
+                const double* given[2] = {boxes + 6 * int64_t(one), boxes + 6 * int64_t(other)};
+                near(*surfaces[one], *surfaces[other], given, limits[k], left, right, found + 7 * k, faces + 2 * k);
+            }
+        } catch (const std::bad_alloc&) {
+            full = true;
+        }
+    };
+    std::vector<std::thread> others;
+    const int64_t most = std::min<int64_t>(std::thread::hardware_concurrency(), count / PAIRS);
     try {
-        found[0] = INFINITE;
-        for (int k = 1; k < 7; ++k) found[k] = 0.0;
-        faces[0] = faces[1] = -1;
-        const double reach = limit * (1.0 + 1e-9);
-        double common[6];
-        for (int k = 0; k < 3; ++k) {
-            common[k] = boxes[6 + k] - reach;
-            common[3 + k] = boxes[9 + k] + reach;
-        }
-        Cutout left, right;
-        if (!left.take(*one, common)) return 0;
-        for (int k = 0; k < 3; ++k) {
-            common[k] -= reach;
-            common[3 + k] += reach;
-        }
-        if (!right.take(*other, common)) return 0;
-        left.grow(*one);
-        right.grow(*other);
-        least({left.tree, right.tree, pose_of(nullptr), floor_of(left.tree, right.tree, pose_of(nullptr))}, limit, found, faces);
-        if (faces[0] >= 0) {
-            faces[0] = left.which[size_t(faces[0])];
-            faces[1] = right.which[size_t(faces[1])];
-        }
-        return 0;
-    } catch (const std::bad_alloc&) {
-        return 1;
+        for (int64_t k = 1; k < most; ++k) others.emplace_back(work);
+    } catch (const std::exception&) {  // no thread is to be had: this one does the rest
     }
+    work();
+    for (std::thread& other : others) other.join();
+    return full ? 1 : 0;
 }
 
 // Of points (n, 3) the nearest ones of a surface nearer than `limit`: distances (n,), places (n, 3), triangles (n,) or -1.
@@ -737,5 +790,20 @@ PROXIMITY_API int32_t proximity_windings(const BoxTree* tree, const double* poin
         return 0;
     } catch (const std::bad_alloc&) {
         return 1;
+    }
+}
+
+// The same of a surface without a tree, for a few points.
+PROXIMITY_API void proximity_windings_of(const Surface* surface, const double* points, int64_t count, int32_t* windings) {
+    for (int64_t i = 0; i < count; ++i) {
+        const Vec p = at(points + 3 * i);
+        int32_t found = 0;
+        for (int64_t face = 0; face < surface->faces; ++face) {
+            const int32_t* c = surface->corners + 3 * face;
+            const Vec t[3] = {at(surface->vertices + 3 * int64_t(c[0])), at(surface->vertices + 3 * int64_t(c[1])),
+                at(surface->vertices + 3 * int64_t(c[2]))};
+            found += through(t, p);
+        }
+        windings[i] = found;
     }
 }

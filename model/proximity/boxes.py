@@ -2,7 +2,8 @@
 
 Descending a pair of trees, the nearer boxes first, after Larsen, Gottschalk, Lin and Manocha (1999, "Fast proximity
 queries with swept sphere volumes"). Compiled code has boxes along the axes, and for pairs of trees boxes that lie as
-their triangles do (Gottschalk, Lin and Manocha 1996, "OBBTree"), made where a question comes by; NumPy the former alone.
+their triangles do (Gottschalk, Lin and Manocha 1996, "OBBTree"), made where a question comes by; NumPy
+has the former alone.
 """
 
 from __future__ import annotations

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -56,7 +57,8 @@ class Surface:
         if len(corners) and not 0 <= int(corners.min()) <= int(corners.max()) < len(points):
             raise ValueError("a triangle has a corner that is no vertex")
         self._held = points, corners
-        self.view = ctypes.byref(_SurfaceView(points.ctypes.data, corners.ctypes.data, len(points), len(corners)))
+        self._view = _SurfaceView(points.ctypes.data, corners.ctypes.data, len(points), len(corners))
+        self.address = ctypes.addressof(self._view)
 
 
 def distance(
@@ -69,17 +71,20 @@ def distance(
     return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
 
 
-def near(
-    one: Surface, other: Surface, boxes: Floats, limit: float
-) -> tuple[float, Floats, Floats, tuple[int, int]]:
-    """The same of surfaces whose boxes (2, 2, 3), contiguous, are known, below a finite limit; no tree is kept."""
-    found, faces = np.empty(7), np.empty(2, np.int32)
+def near(surfaces: Sequence[Surface], boxes: Floats, pairs: Numbers, limits: Floats) -> tuple[Floats, Floats, Numbers]:
+    """Of pairs (k, 2) of surfaces, whose boxes (n, 2, 3) are known, the shortest ways below finite limits (k,): lengths
+    (k,), infinite where there is none, their ends (k, 2, 3), and the faces there (k, 2) or -1. No tree is kept."""
+    views = np.array([surface.address for surface in surfaces], np.uintp)
+    rows, most = np.ascontiguousarray(pairs, np.int32), np.ascontiguousarray(limits, np.float64)
+    around, count = np.ascontiguousarray(boxes, np.float64), len(rows)
+    found, faces = np.empty((count, 7)), np.empty((count, 2), np.int32)
     _check(
         library().proximity_near(
-            one.view, other.view, boxes.ctypes.data, limit, found.ctypes.data, faces.ctypes.data
+            views.ctypes.data, around.ctypes.data, rows.ctypes.data, most.ctypes.data, count,
+            found.ctypes.data, faces.ctypes.data,
         )
-    )
-    return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
+    )  # fmt: skip
+    return found[:, 0], found[:, 1:].reshape(-1, 2, 3), faces.astype(np.int64)
 
 
 def nearest(tree: Tree, points: Floats, limit: float) -> tuple[Floats, Floats, Numbers]:
@@ -101,6 +106,13 @@ def windings(tree: Tree, points: Floats) -> Numbers:
     return found.astype(np.int64)
 
 
+def windings_of(surface: Surface, points: Floats) -> Numbers:
+    """The same of a surface without a tree: for a few points."""
+    found = np.empty(len(points), np.int32)
+    library().proximity_windings_of(surface.address, points.ctypes.data, len(points), found.ctypes.data)
+    return found.astype(np.int64)
+
+
 def pieces(triangles: NDArray[np.integer], vertices: int) -> Numbers:
     """(n,) for each of `vertices` the least vertex of its piece of triangles (m, 3), -1 where none has it. The corners
     must be among the vertices."""
@@ -114,4 +126,4 @@ def _check(status: int) -> None:
         raise MemoryError("there is not enough memory for what surfaces are asked")
 
 
-__all__ = ["Surface", "Tree", "available", "distance", "near", "nearest", "pieces", "windings"]
+__all__ = ["Surface", "Tree", "available", "distance", "near", "nearest", "pieces", "windings", "windings_of"]
