@@ -53,11 +53,10 @@ def check_document(
     pairs = _pairs(solids, checks)
     found: list[tuple[Finding, _Asked]] = []
     meets: dict[int, list[str]] = {}
-    for number, asked in enumerate(pairs):
-        if told is not None:
-            told(number, len(pairs))
-        one, other = solids[asked.one], solids[asked.other]
-        relation = memo.relation(one, other, math.inf if asked.touching else asked.clearance)
+    limits = [math.inf if asked.touching else asked.clearance for asked in pairs]
+    ends = [(solids[asked.one], solids[asked.other]) for asked in pairs]
+    known = memo.relations([(*two, limit) for two, limit in zip(ends, limits, strict=True)], told)
+    for asked, (one, other), relation in zip(pairs, ends, known, strict=True):
         if relation is None:
             continue
         if meets_only(relation.kind, relation.overlap):
@@ -120,8 +119,8 @@ def _finding(one: Standing, other: Standing, fault: str, relation: Relation, ask
 
 
 def _share(relation: Relation, one: Standing) -> float:
-    assert one.body.solid is not None and relation.overlap is not None
-    return min(relation.overlap / max(abs(one.body.solid.volume()), LEAST_OVERLAP * relation.overlap), 1.0)
+    assert relation.overlap is not None
+    return min(relation.overlap / max(one.body.volume, LEAST_OVERLAP * relation.overlap), 1.0)
 
 
 def _with_bodies(found: Sequence[tuple[Finding, _Asked]], solids: Sequence[Standing], memo: PairMemo) -> list[Finding]:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,14 +16,16 @@ from ..solid.entry import Problem
 from ..solid.evaluate import ENDLESS, Evaluator
 from ..solid.results import SolidResult, arrays_of, messages_of, open_surface, remarks_on_lettering, result_of
 from ..worker.shown import Message
-from . import bodies
-from .bodies import AROUND, INSIDE, MEETING, Body, Relation, overlap_of
+from .bodies import AROUND, INSIDE, MEETING, Body, Relation, overlap_of, relation, relations
 from .findings import EMPTY, FAILED, OPEN, UNBOUNDED, Triangles
 
 MOST_TRIANGLES = 4 << 20
 """Of bodies that are kept, beside those of the last document."""
 MOST_PAIRS = 1 << 17
 MOST_OVERLAPS = 256
+FIRST_STEP = 16
+"""Pairs that are looked at before somebody may stop it; then so many that it takes about PAUSE seconds."""
+PAUSE = 0.05
 
 Key = bytes
 _TURNED = {INSIDE: AROUND, AROUND: INSIDE}
@@ -86,30 +89,64 @@ class PairMemo:
         self._let_go(len({one.key for one in found}))
         return found
 
-    def relation(self, one: Standing, other: Standing, limit: float) -> Relation | None:
-        """As `bodies.relation`."""
-        turned = other.key < one.key
-        first, second = (other, one) if turned else (one, other)
-        pair = first.key, second.key
-        known = self._relations.get(pair)
-        if known is None or (known[1] is None and known[0] < limit):
-            self.looked_at += 1
-            known = limit, bodies.relation(first.body, second.body, limit)
-            self._relations[pair] = known
-            while len(self._relations) > MOST_PAIRS:
-                self._relations.popitem(last=False)
+    def relations(
+        self, asked: Sequence[tuple[Standing, Standing, float]], told: Callable[[int, int], None] | None = None
+    ) -> list[Relation | None]:
+        """How pairs of bodies, none of which is empty, stand to each other, each below a limit in mm: see
+        `bodies.relation`. `told` hears how many pairs are done, and may raise to stop: what is known is kept."""
+        found: list[Relation | None] = [None] * len(asked)
+        new: list[int] = []
+        for place, (one, other, limit) in enumerate(asked):
+            known = self._relations.get(_pair(one, other))
+            if known is None or (known[1] is None and known[0] < limit):
+                new.append(place)
+            else:
+                found[place] = self._answer(one, other, limit)
+        done, step = 0, FIRST_STEP
+        while done < len(new):
+            if told is not None:
+                told(len(asked) - len(new) + done, len(asked))
+            begin = time.perf_counter()
+            some = new[done : done + step]
+            self._look_at([asked[place] for place in some])
+            for place in some:
+                found[place] = self._answer(*asked[place])
+            done += len(some)
+            step = 2 * step if time.perf_counter() - begin < PAUSE else max(step // 2, 1)
+        while len(self._relations) > max(MOST_PAIRS, len(asked)):
+            self._relations.popitem(last=False)
+        return found
+
+    def _look_at(self, asked: Sequence[tuple[Standing, Standing, float]]) -> None:
+        self.looked_at += len(asked)
+        bounded: list[tuple[Body, Body, float]] = []
+        for one, other, limit in asked:
+            first, second = (one, other) if one.key <= other.key else (other, one)
+            if np.isfinite(limit):
+                bounded.append((first.body, second.body, limit))
+            else:
+                self._relations[first.key, second.key] = limit, relation(first.body, second.body)
+        both = [body for first, second, _ in bounded for body in (first, second)]
+        places = [(2 * number, 2 * number + 1) for number in range(len(bounded))]
+        answers = iter(relations(both, places, [limit for *_, limit in bounded]) if bounded else ())
+        for one, other, limit in asked:
+            if np.isfinite(limit):
+                self._relations[_pair(one, other)] = limit, next(answers)
+
+    def _answer(self, one: Standing, other: Standing, limit: float) -> Relation | None:
+        pair = _pair(one, other)
         self._relations.move_to_end(pair)
-        found = known[1]
-        if found is None or (found.gap > 0.0 and not found.gap < limit - MEETING * _size(first.body, second.body)):
+        found = self._relations[pair][1]
+        if found is None or (found.gap > 0.0 and not found.gap < limit - _rounding(one.body, other.body)):
             return None
-        if not turned:
+        if one.key <= other.key:
             return found
         points = None if found.points is None else found.points[::-1]
         return Relation(_TURNED.get(found.kind, found.kind), found.gap, points, found.overlap)
 
     def overlap(self, one: Standing, other: Standing) -> Triangles:
         """The surface of what two closed bodies share."""
-        pair = min(one.key, other.key), max(one.key, other.key)
+        pair = _pair(one, other)
         if pair not in self._overlaps:
             vertices, triangles = arrays_of(overlap_of(one.body, other.body).to_mesh64())
             self._overlaps[pair] = Triangles(vertices, triangles.astype(np.int32))
@@ -126,6 +163,10 @@ class PairMemo:
             held -= len(body.triangles)
 
 
-def _size(one: Body, other: Body) -> float:
-    """As `bodies.relation` has it, for what rounding may do."""
-    return 2.0 * float(np.abs((one.bounds, other.bounds)).max())
+def _pair(one: Standing, other: Standing) -> tuple[Key, Key]:
+    return min(one.key, other.key), max(one.key, other.key)
+
+
+def _rounding(one: Body, other: Body) -> float:
+    """Millimetres by which a gap is not known, as `bodies.relation` has it."""
+    return MEETING * 2.0 * float(np.abs((one.bounds, other.bounds)).max())
