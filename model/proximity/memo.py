@@ -22,7 +22,7 @@ from .findings import EMPTY, FAILED, OPEN, UNBOUNDED, Triangles
 MOST_TRIANGLES = 4 << 20
 """Of bodies that are kept, beside those of the last document."""
 MOST_PAIRS = 1 << 17
-MOST_OVERLAPS = 256
+MOST_OVERLAPS = 1024
 FIRST_STEP = 16
 """Pairs that are looked at before somebody may stop it; then so many that it takes about PAUSE seconds."""
 PAUSE = 0.05

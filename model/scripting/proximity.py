@@ -36,13 +36,13 @@ def overlap(one: Node, other: Node, tolerance: float = 0.05) -> float:
     >>> overlap(box(10), box(10).at(8, 8))
     40.0
     """
-    bodies = _bodies(one, other, tolerance=tolerance)
-    for body in bodies:
+    first, second = _bodies(one, other, tolerance=tolerance)
+    for body in (first, second):
         if not body.closed:
             raise Refusal(f"“{body.name}” is not closed: it has no inside to share")
     from ..proximity.bodies import overlap_of
 
-    return float(overlap_of(*bodies).volume())
+    return float(overlap_of(first, second).volume())
 
 
 def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
@@ -54,7 +54,8 @@ def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
     """
     from ..proximity.bodies import relation as relation_of
 
-    found = relation_of(*_bodies(one, other, tolerance=tolerance))
+    first, second = _bodies(one, other, tolerance=tolerance)
+    found = relation_of(first, second)
     assert found is not None
     return found
 
