@@ -5,6 +5,8 @@ from __future__ import annotations
 import argparse
 import json
 import math
+from collections.abc import Callable
+from pathlib import Path
 
 from ...model.document.document import Document
 from ...model.document.errors import Refusal
@@ -43,22 +45,33 @@ def check(options: argparse.Namespace) -> int:
     if not document.solids:
         raise Refusal("the document holds no solid")
     bar, memo = Bar(document), PairMemo()
+
+    def counted(what: str) -> Callable[[int, int], None]:
+        return lambda done, total: bar.show(what, done / total)
+
     try:
         report = check_document(
             document,
             options.tolerance,
             memo=memo,
             progress=bar,
-            told=lambda done, total: bar.show("pairs of solids", done / total),
+            told=counted("pairs of solids"),
             bodies=options.report is not None,
         )
         if options.report is not None:
+            from ...model.proximity.findings import Triangles
             from .clearance_report import write_report
 
-            solids = memo.standing(document, options.tolerance)
+            title = Path(options.file).name
+            surfaces = {
+                one.root.id: Triangles(one.body.vertices, one.body.triangles)
+                for one in memo.standing(document, options.tolerance)
+            }
             naming(
                 options.report,
-                lambda: write_report(options.report, options.file, document, report, solids, options.tolerance),
+                lambda: write_report(
+                    options.report, title, document, report, surfaces, options.tolerance, counted("pictures")
+                ),
             )
     finally:
         bar.end()

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from datetime import date
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,7 +13,7 @@ from manifold3d import Mesh64
 from ...model.image.pictures import encoded
 from ...model.project.disk import replace_file
 from ...model.proximity.boxes import Floats
-from ...model.proximity.findings import OVERLAP, Finding
+from ...model.proximity.findings import OVERLAP, Finding, Triangles
 from ...model.proximity.report_page import ONE, OTHER, SHARED, Figure, page_of
 from ...model.solid.display import DisplayMesh, display_mesh
 from ...render.camera import Camera, fit, project
@@ -25,11 +24,10 @@ from ...render.views import standard_view, view_direction
 if TYPE_CHECKING:
     from ...model.document.document import Document
     from ...model.proximity.findings import Report
-    from ...model.proximity.memo import Standing
 
-PICTURED = 20
-"""Findings with pictures: each takes a fraction of a second, and a tenth of a megabyte."""
-SIZE = (720, 500)
+PICTURED = 12
+"""Findings with pictures: each takes a second or two where no graphics card helps, and 50 kB."""
+SIZE = (600, 420)
 """Of a picture, in pixels; on the page it is half the width of an A4 sheet."""
 VIEWS = ("front-right-top", "front-left-top")
 """Whichever looks more across the gap is taken."""
@@ -42,27 +40,29 @@ OPACITY = 0.45
 
 def write_report(
     path: str | os.PathLike[str],
-    file: str,
+    title: str,
     document: Document,
     report: Report,
-    solids: Sequence[Standing],
+    surfaces: Mapping[str, Triangles],
     tolerance: float,
+    told: Callable[[int, int], None] | None = None,
 ) -> None:
-    """Write the report of a file's check as HTML; `solids` are those that were checked, within `tolerance` mm. Raises
-    Refusal."""
-    by_id = {one.root.id: one for one in solids}
-    figures = {
-        number: _figures(finding, [by_id[node_id] for node_id in finding.ids])
-        for number, finding in enumerate(report.findings[:PICTURED])
-    }
-    page = page_of(report, document, Path(file).name, tolerance, date.today().isoformat(), figures)
+    """Write the report of a document's check as HTML; `surfaces` are those of its solids by the ids of their roots,
+    within `tolerance` mm. `told` hears of how many findings pictures are made. Raises Refusal."""
+    figures = {}
+    pictured = report.findings[:PICTURED]
+    for number, finding in enumerate(pictured):
+        if told is not None:
+            told(number, len(pictured))
+        figures[number] = figures_of(finding, [surfaces[node_id] for node_id in finding.ids])
+    page = page_of(report, document, title, tolerance, date.today().isoformat(), figures)
     replace_file(path, lambda stream: stream.write(page.encode()))
 
 
-def _figures(finding: Finding, pair: Sequence[Standing]) -> list[Figure]:
+def figures_of(finding: Finding, pair: Sequence[Triangles]) -> list[Figure]:
     """The pair as a whole, and the place close by where that shows more."""
-    meshes = [_shown(one.body.vertices, one.body.triangles) for one in pair]
-    bounds = np.array([one.body.bounds for one in pair])
+    meshes = [_shown(surface) for surface in pair]
+    bounds = np.array([mesh.bounds for mesh in meshes])
     whole = np.array([bounds[:, 0].min(axis=0), bounds[:, 1].max(axis=0)])
     middle, size = finding.bounds.mean(axis=0), float(np.ptp(whole, axis=0).max())
     around = AROUND_OVERLAP if finding.fault == OVERLAP else AROUND_GAP
@@ -81,7 +81,7 @@ def _figure(finding: Finding, meshes: Sequence[DisplayMesh], camera: Camera, cap
         background="#ffffff",
     )  # fmt: skip
     if finding.body is not None:
-        body = _shown(finding.body.vertices, finding.body.triangles)
+        body = _shown(finding.body)
         over = picture([(body, Paint(SHARED))], SIZE, camera, style="edges", background="transparent")
         share = over[..., 3:] / 255.0
         pixels = np.round(share * over[..., :3] + (1.0 - share) * pixels).astype(np.uint8)
@@ -105,12 +105,9 @@ def _camera(view: str, bounds: Floats) -> Camera:
     return fit(standard_view(Camera(parallel=True), view), bounds, SIZE[0] / SIZE[1], 1.25)
 
 
-def _shown(vertices: Floats, triangles: np.ndarray) -> DisplayMesh:
+def _shown(surface: Triangles) -> DisplayMesh:
+    triangles = np.array(surface.triangles, np.uint64, order="C")
     runs = np.array([0, 3 * len(triangles)], np.uint64)
-    mesh = Mesh64(
-        np.array(vertices, order="C"),  # its own copy: manifold3d takes no read-only one
-        np.array(triangles, np.uint64, order="C"),
-        run_index=runs,
-        run_original_id=np.zeros(1, np.uint32),
-    )
+    vertices = np.array(surface.vertices, np.float64, order="C")  # its own: manifold3d takes no read-only ones
+    mesh = Mesh64(vertices, triangles, run_index=runs, run_original_id=np.zeros(1, np.uint32))
     return display_mesh(mesh, np.zeros(1, np.int32), ((),))

@@ -26,7 +26,7 @@ class Triangles:
     """A surface to be shown: `vertices` (n, 3) in mm and `triangles` (m, 3)."""
 
     vertices: Floats
-    triangles: NDArray[np.int32]
+    triangles: NDArray[np.integer]
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -35,7 +35,7 @@ article { break-inside: avoid; border-top: 0.3mm solid #b9c3ce; margin: 6mm 0 0;
 article h3 { font-size: 11pt; font-weight: 600; margin: 0 0 1mm; }
 .dot { display: inline-block; width: 2.6mm; height: 2.6mm; border-radius: 50%; margin-right: 1mm; }
 .pictures { display: flex; gap: 4mm; margin: 2mm 0 0; }
-figure { margin: 0; flex: 1 1 0; min-width: 0; }
+figure { margin: 0; flex: 0 1 calc(50% - 2mm); min-width: 0; }
 svg { display: block; width: 100%; height: auto; border: 0.2mm solid #d8dee5; }
 figcaption { color: #5b6673; font-size: 9pt; margin-top: 0.8mm; }
 @media print { body { margin: 0; padding: 0; max-width: none; }
@@ -152,12 +152,12 @@ def _figure(figure: Figure, finding: Finding) -> str:
         (ax, ay), (bx, by) = figure.line
         line = f'x1="{ax:.1f}" y1="{ay:.1f}" x2="{bx:.1f}" y2="{by:.1f}"'
         ends = "".join(f'<circle cx="{x:.1f}" cy="{y:.1f}" r="5" fill="{SHARED}"/>' for x, y in figure.line)
-        x, y = (ax + bx) / 2.0, min(ay, by) - 16.0
+        x, y = (ax + bx) / 2.0, min(ay, by) - 14.0
         anchor = "start" if x < width * 0.25 else "end" if x > width * 0.75 else "middle"
-        text = f'<text x="{x:.1f}" y="{max(y, 34.0):.1f}" text-anchor="{anchor}" font-size="28" '
+        text = f'<text x="{x:.1f}" y="{max(y, 30.0):.1f}" text-anchor="{anchor}" font-size="24" '
         text += 'font-family="Helvetica, Arial, sans-serif" '
         words = f"{length_text(finding.gap)}</text>"
-        label = f'{text}stroke="#fff" stroke-width="7" stroke-linejoin="round">{words}{text}fill="#1d242d">{words}'
+        label = f'{text}stroke="#fff" stroke-width="6" stroke-linejoin="round">{words}{text}fill="#1d242d">{words}'
         marks = f'<line {line} stroke="#fff" stroke-width="8"/><line {line} stroke="{SHARED}" stroke-width="4"/>'
         marks += ends + label
     return (
