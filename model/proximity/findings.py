@@ -1,0 +1,122 @@
+"""What a check of pairs found: overlaps, gaps below what is asked, parts that were meant to touch; plain values."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ..worker.shown import Message
+from .bodies import AROUND, INSIDE, OVERLAPPING, TOUCHING
+from .boxes import Floats
+
+OVERLAP, NEAR, PARTED = "overlap", "near", "parted"
+"""The faults of a pair: they share a volume, their gap is below what is asked, or they do not touch as they are meant
+to."""
+OPEN, EMPTY, UNBOUNDED, FAILED = "open", "empty", "unbounded", "failed"
+"""Why less is known of a solid than of others."""
+
+ALL = 1.0 - 1e-9
+"""The share of a volume from which it is all of it."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Triangles:
+    """A surface to be shown: `vertices` (n, 3) in mm and `triangles` (m, 3)."""
+
+    vertices: Floats
+    triangles: NDArray[np.integer]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Finding:
+    """A pair of solids, by the ids and names of their roots, that is not as asked.
+
+    `kind` is what the first is to the second, as in a Relation; `gap` is in mm, 0 where they meet, `points` (2, 3) its
+    ends, None of an overlap. `asked` is the clearance asked of the pair, 0 where `touching`: they are meant to touch.
+    `overlap` is the volume that they share in mm³, None where one is no solid, and `shares` which part of each that
+    is. `bounds` (2, 3) hold the place; `body` is the surface of the overlap, None where it is too large to be kept.
+    """
+
+    one: str
+    other: str
+    names: tuple[str, str]
+    fault: str
+    kind: str
+    gap: float
+    asked: float
+    touching: bool
+    points: Floats | None
+    overlap: float | None
+    shares: tuple[float, float] | None
+    bounds: Floats
+    body: Triangles | None = field(default=None, repr=False)
+
+    @property
+    def ids(self) -> tuple[str, str]:
+        return self.one, self.other
+
+    @property
+    def missing(self) -> float:
+        """Millimetres of the clearance that are not there; of parts meant to touch, what is too much."""
+        return self.gap if self.fault == PARTED else max(self.asked - self.gap, 0.0)
+
+    @property
+    def coincident(self) -> bool:
+        """Whether both are the same body in the same place."""
+        return self.shares is not None and min(self.shares) >= ALL
+
+    @property
+    def nested(self) -> str:
+        """INSIDE or AROUND where one holds all of the other, though their surfaces may meet; else ""."""
+        if self.kind in (INSIDE, AROUND):
+            return self.kind
+        if self.kind != OVERLAPPING or self.shares is None or self.coincident or max(self.shares) < ALL:
+            return ""
+        return INSIDE if self.shares[0] >= ALL else AROUND
+
+    @property
+    def badness(self) -> tuple[float, float]:
+        """Sorts the worst first: overlaps by volume, then by what is missing; what differs by rounding is the same."""
+        return -float(f"{self.overlap or 0.0:.9g}"), -float(f"{self.missing:.9g}")
+
+
+@dataclass(frozen=True, slots=True)
+class Remark:
+    """A solid of which less is known than of others: `kind` is "open", "empty", "unbounded" or "failed".
+
+    `message` is what evaluation said of it; `meets` names the solids that an open surface meets.
+    """
+
+    id: str
+    name: str
+    kind: str
+    message: str = ""
+    meets: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Report:
+    """A check of a document: `findings`, the worst first, and `remarks` on solids that could not be checked wholly.
+
+    `clearance` is the one asked of all, in mm; `solids` is how many visible ones there are, `pairs` how many pairs of
+    them, and `near` how many of these were looked at, since their boxes are near. `messages` are the evaluation's.
+    """
+
+    findings: tuple[Finding, ...]
+    remarks: tuple[Remark, ...]
+    clearance: float
+    solids: int
+    pairs: int
+    near: int
+    messages: tuple[Message, ...] = ()
+
+    @property
+    def in_order(self) -> bool:
+        return not self.findings
+
+
+def meets_only(kind: str, overlap: float | None) -> bool:
+    """Whether surfaces meet of which one bounds no solid, so that nothing is known of an overlap."""
+    return kind == TOUCHING and overlap is None

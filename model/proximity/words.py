@@ -1,0 +1,91 @@
+"""Words for how two solids stand to each other, and for solids of which less is known."""
+
+from __future__ import annotations
+
+from .bodies import APART, AROUND, INSIDE, TOUCHING, Relation
+from .findings import EMPTY, NEAR, OPEN, OVERLAP, Finding, Remark, Report, meets_only
+
+
+def length_text(length: float) -> str:
+    """Millimetres with four figures."""
+    return f"{length:.4g} mm"
+
+
+def volume_text(volume: float) -> str:
+    """Cubic millimetres with four figures, large ones in full."""
+    return f"{volume:,.0f} mm³" if volume >= 1000.0 else f"{volume:.4g} mm³"
+
+
+def relation_words(one: str, other: str, relation: Relation) -> str:
+    """How the solid called `one` stands to the one called `other`, as a sentence."""
+    if relation.kind == APART:
+        return f"“{one}” and “{other}” are {length_text(relation.gap)} apart."
+    if relation.kind == TOUCHING:
+        if meets_only(relation.kind, relation.overlap):
+            return f"“{one}” and “{other}” meet; whether they overlap cannot be told, since one is not closed."
+        return f"“{one}” and “{other}” touch, and share no volume."
+    assert relation.overlap is not None
+    if relation.kind in (INSIDE, AROUND):
+        inner, outer = (one, other) if relation.kind == INSIDE else (other, one)
+        return f"“{inner}” lies inside “{outer}”, all of its {volume_text(relation.overlap)}."
+    return f"“{one}” and “{other}” overlap by {volume_text(relation.overlap)}."
+
+
+def finding_words(finding: Finding) -> str:
+    """What is wrong with a pair, as a sentence."""
+    one, other = finding.names
+    if finding.fault == OVERLAP:
+        assert finding.overlap is not None
+        volume = volume_text(finding.overlap)
+        if finding.coincident:
+            return f"“{one}” and “{other}” are the same body in the same place: {volume}."
+        if finding.nested:
+            inner, outer = (one, other) if finding.nested == INSIDE else (other, one)
+            return f"“{inner}” lies inside “{outer}”, all of its {volume}."
+        return f"“{one}” and “{other}” overlap by {volume}."
+    if finding.fault == NEAR:
+        asked = f"{length_text(finding.asked)} is asked"
+        if finding.kind != TOUCHING:
+            return f"“{one}” and “{other}” are {length_text(finding.gap)} apart; {asked}."
+        if meets_only(finding.kind, finding.overlap):
+            return f"“{one}” and “{other}” meet, and may overlap, since one is not closed; {asked}."
+        return f"“{one}” and “{other}” touch; {asked}."
+    return f"“{one}” and “{other}” are meant to touch, and are {length_text(finding.gap)} apart."
+
+
+def remark_words(remark: Remark) -> str:
+    """What is not known of a solid and why, as a sentence."""
+    if remark.kind == EMPTY:
+        return f"“{remark.name}” is empty: there is nothing of it to check."
+    if remark.kind == OPEN:
+        meets = f" It meets {_listed(remark.meets)}." if remark.meets else ""
+        return f"“{remark.name}” is not closed: gaps to it are found, overlaps only once its holes are filled.{meets}"
+    return f"“{remark.name}” is not checked, since it failed: {remark.message.removesuffix('.')}."
+
+
+def report_words(report: Report) -> str:
+    """What a check came to, as a sentence."""
+    if report.solids < 2:
+        return "A check takes two visible solids, and there is " + ("one." if report.solids else "none.")
+    asked = f"a clearance of {length_text(report.clearance)}" if report.clearance else "no overlaps"
+    looked = f"{report.pairs:,} pairs of {report.solids:,} solids" if report.pairs > 1 else "1 pair of solids"
+    overlaps = sum(finding.fault == OVERLAP for finding in report.findings)
+    near = sum(finding.fault == NEAR for finding in report.findings)
+    parted = len(report.findings) - overlaps - near
+    counted = [
+        words
+        for count, words in (
+            (overlaps, f"{overlaps:,} overlap{'s' if overlaps == 1 else ''}"),
+            (near, f"{near:,} {'is' if near == 1 else 'are'} too near"),
+            (parted, f"{parted:,} should touch and {'does' if parted == 1 else 'do'} not"),
+        )
+        if count
+    ]
+    return f"{looked}, {asked} asked: {', '.join(counted) if counted else 'all in order'}."
+
+
+def _listed(names: tuple[str, ...], most: int = 4) -> str:
+    told = [f"“{name}”" for name in names[:most]]
+    if len(names) > most:
+        told.append(f"{len(names) - most} more")
+    return told[0] if len(told) == 1 else f"{', '.join(told[:-1])} and {told[-1]}"
