@@ -56,7 +56,9 @@ class ClearancePage(QWidget):
         self.told = QLabel(EMPTY, self)
         self.told.setAccessibleName("Result")
         self.told.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self.told.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # long words widen nothing
+        self.told.setWordWrap(True)
+        self.told.setContentsMargins(12, 0, 12, 4)
+        self.told.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)  # long words widen nothing
         self.out = self._button("export", "", "Copy the list, or save a report to print")
         self.out.setAccessibleName("Copy or save the findings")
         self.out.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
@@ -69,8 +71,7 @@ class ClearancePage(QWidget):
         keep.setProperty("muted", True)
         for widget in (self.check, keep, self.clearance, QLabel("mm", bar)):
             line.addWidget(widget)
-        line.addSpacing(8)
-        line.addWidget(self.told, 1)
+        line.addStretch(1)
         line.addWidget(self.out)
 
         self.working = QWidget(self)
@@ -104,11 +105,13 @@ class ClearancePage(QWidget):
         self.parts.addWidget(self.rules)
         self.parts.setStretchFactor(0, 3)
         self.parts.setStretchFactor(1, 1)
+        self.parts.setSizes([460, 220])
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addWidget(bar)
         layout.addWidget(self.working)
+        layout.addWidget(self.told)
         layout.addWidget(self.remarks)
         layout.addWidget(self.parts, 1)
         layout.addStretch(0)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from ...model.document.document import Document
     from ...model.proximity.checks import PairCheck
 
-TITLES = ("Pair of its own", "Asked")
+TITLES = ("Pair", "Asked")
 
 
 class RuleList(QTreeWidget):

@@ -26,7 +26,6 @@ SHORT = 18.0
 """Pixels: the words of a shorter way stand beside it, with a leader."""
 AWAY = (34.0, 30.0)  # pixels from there to the words, across and up
 LETTER = 6.4  # pixels that a letter is wide, nearly
-OPACITY = 0.85
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,7 +53,7 @@ class ClearanceMarks:
             actor.PickableOff()
             actor.VisibilityOff()
         unlit(self._sign)
-        self._body.GetProperty().SetOpacity(OPACITY)
+        self._body.GetProperty().BackfaceCullingOn()
         self._body.GetProperty().SetInterpolationToFlat()
         self._body.GetProperty().SetAmbient(0.35)
         self._drawn = vtkPolyData()
