@@ -12,10 +12,9 @@ import numpy as np
 from ..document.document import Document
 from ..mesh.faults.box_pairs import meeting
 from ..worker.shown import Message
-from .bodies import OVERLAP as LEAST_OVERLAP
 from .bodies import TOUCHING, Relation
 from .checks import Checks
-from .findings import NEAR, OPEN, OVERLAP, PARTED, Finding, Remark, Report, meets_only
+from .findings import NEAR, OVERLAP, PARTED, Finding, Remark, Report, meets_only, shares_of
 from .memo import PairMemo, Standing
 from .words import finding_words, remark_words
 
@@ -108,7 +107,8 @@ def _finding(one: Standing, other: Standing, fault: str, relation: Relation, ask
     if fault == OVERLAP:
         bounds = np.array([one.body.bounds, other.body.bounds])
         bounds = np.array([bounds[:, 0].max(axis=0), bounds[:, 1].min(axis=0)])
-        shares = _share(relation, one), _share(relation, other)
+        assert relation.overlap is not None
+        shares = shares_of(one.body, other.body, relation.overlap)
     else:
         assert relation.points is not None
         bounds = np.array([relation.points.min(axis=0), relation.points.max(axis=0)])
@@ -116,11 +116,6 @@ def _finding(one: Standing, other: Standing, fault: str, relation: Relation, ask
         one.root.id, other.root.id, (one.root.name, other.root.name), fault, relation.kind, relation.gap,
         asked.clearance, asked.touching, relation.points, relation.overlap, shares, bounds,
     )  # fmt: skip
-
-
-def _share(relation: Relation, one: Standing) -> float:
-    assert relation.overlap is not None
-    return min(relation.overlap / max(one.body.volume, LEAST_OVERLAP * relation.overlap), 1.0)
 
 
 def _with_bodies(found: Sequence[tuple[Finding, _Asked]], solids: Sequence[Standing], memo: PairMemo) -> list[Finding]:
@@ -138,13 +133,7 @@ def _with_bodies(found: Sequence[tuple[Finding, _Asked]], solids: Sequence[Stand
 
 
 def _remarks(solids: Sequence[Standing], meets: Mapping[int, Sequence[str]]) -> list[Remark]:
-    found = []
-    for place, one in enumerate(solids):
-        if one.kind:
-            message = next((message.message for message in one.messages if message.error), "")
-            names = tuple(meets.get(place, ())) if one.kind == OPEN else ()
-            found.append(Remark(one.root.id, one.root.name, one.kind, message, names))
-    return found
+    return [one.remark(meets.get(place, ())) for place, one in enumerate(solids) if one.kind]
 
 
 def checked(

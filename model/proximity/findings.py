@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..worker.shown import Message
-from .bodies import AROUND, INSIDE, OVERLAPPING, TOUCHING
+from .bodies import OVERLAP as LEAST_OVERLAP
+from .bodies import TOUCHING, Body
 from .boxes import Floats
 
 OVERLAP, NEAR, PARTED = "overlap", "near", "parted"
@@ -16,9 +17,6 @@ OVERLAP, NEAR, PARTED = "overlap", "near", "parted"
 to."""
 OPEN, EMPTY, UNBOUNDED, FAILED = "open", "empty", "unbounded", "failed"
 """Why less is known of a solid than of others."""
-
-ALL = 1.0 - 1e-9
-"""The share of a volume from which it is all of it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -63,20 +61,6 @@ class Finding:
         return self.gap if self.fault == PARTED else max(self.asked - self.gap, 0.0)
 
     @property
-    def coincident(self) -> bool:
-        """Whether both are the same body in the same place."""
-        return self.shares is not None and min(self.shares) >= ALL
-
-    @property
-    def nested(self) -> str:
-        """INSIDE or AROUND where one holds all of the other, though their surfaces may meet; else ""."""
-        if self.kind in (INSIDE, AROUND):
-            return self.kind
-        if self.kind != OVERLAPPING or self.shares is None or self.coincident or max(self.shares) < ALL:
-            return ""
-        return INSIDE if self.shares[0] >= ALL else AROUND
-
-    @property
     def badness(self) -> tuple[float, float]:
         """Sorts the worst first: overlaps by volume, then by what is missing; what differs by rounding is the same."""
         return -float(f"{self.overlap or 0.0:.9g}"), -float(f"{self.missing:.9g}")
@@ -115,6 +99,12 @@ class Report:
     @property
     def in_order(self) -> bool:
         return not self.findings
+
+
+def shares_of(one: Body, other: Body, overlap: float) -> tuple[float, float]:
+    """Which parts of two bodies' volumes an overlap in mm³ is."""
+    least = LEAST_OVERLAP * overlap
+    return min(overlap / max(one.volume, least), 1.0), min(overlap / max(other.volume, least), 1.0)
 
 
 def meets_only(kind: str, overlap: float | None) -> bool:

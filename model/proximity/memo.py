@@ -17,7 +17,7 @@ from ..solid.evaluate import ENDLESS, Evaluator
 from ..solid.results import SolidResult, arrays_of, messages_of, open_surface, remarks_on_lettering, result_of
 from ..worker.shown import Message
 from .bodies import AROUND, INSIDE, MEETING, Body, Relation, overlap_of, relation, relations
-from .findings import EMPTY, FAILED, OPEN, UNBOUNDED, Triangles
+from .findings import EMPTY, FAILED, OPEN, UNBOUNDED, Remark, Triangles
 
 MOST_TRIANGLES = 4 << 20
 """Of bodies that are kept, beside those of the last document."""
@@ -52,6 +52,12 @@ class Standing:
         if not self.body.empty:
             return OPEN
         return UNBOUNDED if any(p.error and p.message == ENDLESS for p in self.problems) else FAILED
+
+    def remark(self, meets: Sequence[str] = ()) -> Remark:
+        """Of one with such a kind; `meets` names the solids that an open surface meets."""
+        message = next((message.message for message in self.messages if message.error), "")
+        names = tuple(meets) if self.kind == OPEN else ()
+        return Remark(self.root.id, self.root.name, self.kind, message, names)
 
 
 def body_of(result: SolidResult) -> Body:
