@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -40,12 +41,14 @@ def check_document(
     progress: Callable[[str], None] | None = None,
     told: Callable[[int, int], None] | None = None,
     bodies: bool = False,
+    most: int | None = None,
 ) -> Report:
     """Every pair of visible solids against the document's own checks, or others.
 
     Solids are evaluated within `tolerance` mm, and what is meant to touch may be so far apart. `progress` hears what is
     evaluated, `told` how many of the pairs whose boxes are near have been looked at; either may raise to stop, and the
-    memo keeps what is known by then. With `bodies` the findings carry the surfaces of the overlaps.
+    memo keeps what is known by then. With `bodies` the findings carry the surfaces of the overlaps. `most` is how many
+    findings are told, the worst; None: all.
     """
     memo, checks = memo or PairMemo(), checks or document.checks
     solids = memo.standing(document, tolerance, progress)
@@ -65,13 +68,15 @@ def check_document(
         if fault:
             found.append((_finding(one, other, fault, relation, asked), asked))
     found.sort(key=lambda pair: (pair[0].badness, pair[1].one, pair[1].other))
+    told_of = found[:most]
     return Report(
-        tuple(_with_bodies(found, solids, memo) if bodies else (finding for finding, _ in found)),
+        tuple(_with_bodies(told_of, solids, memo) if bodies else (finding for finding, _ in told_of)),
         tuple(_remarks(solids, meets)),
         checks.clearance,
         len(solids),
         len(solids) * (len(solids) - 1) // 2,
         len(pairs),
+        Counter(finding.fault for finding, _ in found),
         tuple(message for one in solids for message in one.messages),
     )
 

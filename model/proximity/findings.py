@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -84,6 +85,7 @@ class Remark:
 class Report:
     """A check of a document: `findings`, the worst first, and `remarks` on solids that could not be checked wholly.
 
+    `faults` counts the findings by their fault, also those that are left out, since only so many were wanted.
     `clearance` is the one asked of all, in mm; `solids` is how many visible ones there are, `pairs` how many pairs of
     them, and `near` how many of these were looked at, since their boxes are near. `messages` are the evaluation's.
     """
@@ -94,11 +96,16 @@ class Report:
     solids: int
     pairs: int
     near: int
+    faults: Mapping[str, int] = field(default_factory=dict)
     messages: tuple[Message, ...] = ()
 
     @property
     def in_order(self) -> bool:
         return not self.findings
+
+    @property
+    def left_out(self) -> int:
+        return sum(self.faults.values()) - len(self.findings)
 
 
 def shares_of(one: Body, other: Body, overlap: float) -> tuple[float, float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from .bodies import APART, AROUND, INSIDE, TOUCHING, Relation
-from .findings import EMPTY, NEAR, OPEN, OVERLAP, Finding, Remark, Report, meets_only
+from .findings import EMPTY, NEAR, OPEN, OVERLAP, PARTED, Finding, Remark, Report, meets_only
 
 ALL = 1.0 - 1e-9
 """The share of a volume from which it is all of it."""
@@ -76,9 +76,7 @@ def report_words(report: Report) -> str:
         return "A check takes two visible solids, and there is " + ("one." if report.solids else "none.")
     asked = f"a clearance of {length_text(report.clearance)}" if report.clearance else "no overlaps"
     looked = f"{report.pairs:,} pairs of {report.solids:,} solids" if report.pairs > 1 else "1 pair of solids"
-    overlaps = sum(finding.fault == OVERLAP for finding in report.findings)
-    near = sum(finding.fault == NEAR for finding in report.findings)
-    parted = len(report.findings) - overlaps - near
+    overlaps, near, parted = (report.faults.get(fault, 0) for fault in (OVERLAP, NEAR, PARTED))
     counted = [
         words
         for count, words in (
@@ -88,7 +86,8 @@ def report_words(report: Report) -> str:
         )
         if count
     ]
-    return f"{looked}, {asked} asked: {', '.join(counted) if counted else 'all in order'}."
+    worst = f" Here are the worst {len(report.findings):,}." if report.left_out else ""
+    return f"{looked}, {asked} asked: {', '.join(counted) if counted else 'all in order'}.{worst}"
 
 
 def _listed(names: tuple[str, ...], most: int = 4) -> str:
