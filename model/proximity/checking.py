@@ -15,7 +15,7 @@ from ..mesh.faults.box_pairs import meeting
 from ..worker.shown import Message
 from .bodies import TOUCHING, Relation
 from .checks import Checks
-from .findings import NEAR, OVERLAP, PARTED, Finding, Remark, Report, meets_only, shares_of
+from .findings import NEAR, OVERLAP, PARTED, Finding, Remark, Report, badness, meets_only, shares_of
 from .memo import PairMemo, Standing
 from .words import finding_words, remark_words
 
@@ -53,7 +53,7 @@ def check_document(
     memo, checks = memo or PairMemo(), checks or document.checks
     solids = memo.standing(document, tolerance, progress)
     pairs = _pairs(solids, checks)
-    found: list[tuple[Finding, _Asked]] = []
+    found: list[tuple[str, Relation, _Asked]] = []
     meets: dict[int, list[str]] = {}
     limits = [math.inf if asked.touching else asked.clearance for asked in pairs]
     ends = [(solids[asked.one], solids[asked.other]) for asked in pairs]
@@ -66,17 +66,18 @@ def check_document(
                 meets.setdefault(place, []).append(beside.root.name)
         fault = _fault(relation, asked, tolerance)
         if fault:
-            found.append((_finding(one, other, fault, relation, asked), asked))
-    found.sort(key=lambda pair: (pair[0].badness, pair[1].one, pair[1].other))
-    told_of = found[:most]
+            found.append((fault, relation, asked))
+    found.sort(key=lambda row: badness(row[1].overlap, abs(row[2].clearance - row[1].gap)))  # else as they stand
+    worst = [asked for *_, asked in found[:most]]
+    findings = [_finding(solids, *row) for row in found[:most]]
     return Report(
-        tuple(_with_bodies(told_of, solids, memo) if bodies else (finding for finding, _ in told_of)),
+        tuple(_with_bodies(findings, worst, solids, memo) if bodies else findings),
         tuple(_remarks(solids, meets)),
         checks.clearance,
         len(solids),
         len(solids) * (len(solids) - 1) // 2,
         len(pairs),
-        Counter(finding.fault for finding, _ in found),
+        Counter(fault for fault, *_ in found),
         tuple(message for one in solids for message in one.messages),
     )
 
@@ -107,8 +108,8 @@ def _fault(relation: Relation, asked: _Asked, tolerance: float) -> str:
     return NEAR if asked.clearance > 0.0 and (relation.kind == TOUCHING or relation.gap < asked.clearance) else ""
 
 
-def _finding(one: Standing, other: Standing, fault: str, relation: Relation, asked: _Asked) -> Finding:
-    shares = None
+def _finding(solids: Sequence[Standing], fault: str, relation: Relation, asked: _Asked) -> Finding:
+    one, other, shares = solids[asked.one], solids[asked.other], None
     if fault == OVERLAP:
         bounds = np.array([one.body.bounds, other.body.bounds])
         bounds = np.array([bounds[:, 0].max(axis=0), bounds[:, 1].min(axis=0)])
@@ -123,10 +124,12 @@ def _finding(one: Standing, other: Standing, fault: str, relation: Relation, ask
     )  # fmt: skip
 
 
-def _with_bodies(found: Sequence[tuple[Finding, _Asked]], solids: Sequence[Standing], memo: PairMemo) -> list[Finding]:
+def _with_bodies(
+    found: Sequence[Finding], pairs: Sequence[_Asked], solids: Sequence[Standing], memo: PairMemo
+) -> list[Finding]:
     """The findings with the surfaces of their overlaps, as long as there is room for them."""
     findings, room = [], MOST_SHOWN
-    for finding, asked in found:
+    for finding, asked in zip(found, pairs, strict=True):
         if finding.fault == OVERLAP and room > 0:
             body = memo.overlap(solids[asked.one], solids[asked.other])
             room -= len(body.triangles)

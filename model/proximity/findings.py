@@ -59,12 +59,11 @@ class Finding:
     @property
     def missing(self) -> float:
         """Millimetres of the clearance that are not there; of parts meant to touch, what is too much."""
-        return self.gap if self.fault == PARTED else max(self.asked - self.gap, 0.0)
+        return abs(self.asked - self.gap)
 
     @property
     def badness(self) -> tuple[float, float]:
-        """Sorts the worst first: overlaps by volume, then by what is missing; what differs by rounding is the same."""
-        return -float(f"{self.overlap or 0.0:.9g}"), -float(f"{self.missing:.9g}")
+        return badness(self.overlap, self.missing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +105,11 @@ class Report:
     @property
     def left_out(self) -> int:
         return sum(self.faults.values()) - len(self.findings)
+
+
+def badness(overlap: float | None, missing: float) -> tuple[float, float]:
+    """Sorts the worst first: overlaps by volume, then by what is missing; what differs by rounding is the same."""
+    return -float(f"{overlap or 0.0:.9g}"), -float(f"{missing:.9g}")
 
 
 def shares_of(one: Body, other: Body, overlap: float) -> tuple[float, float]:
