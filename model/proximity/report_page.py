@@ -94,11 +94,11 @@ def _table(report: Report) -> str:
             f'<td>{TITLES.get(finding.fault, "Apart")}</td><td class="number">{_measure(finding)}</td>'
             f'<td class="number">{asked}</td><td class="number">{_point(finding.bounds.mean(axis=0), 4)}</td></tr>'
         )
+    head = '<th class="number">No.</th><th>Solid</th><th>and</th><th>Fault</th>'
+    head += "".join(f'<th class="number">{title}</th>' for title in ("Gap or volume", "Asked", "About"))
+    body = "\n".join(rows)
     return (
-        '<h2>Findings, the worst first</h2>\n<table><thead><tr><th class="number">No.</th><th>Solid</th><th>and</th>'
-        '<th>Fault</th><th class="number">Gap or volume</th><th class="number">Asked</th><th class="number">About</th></tr></thead>\n<tbody>\n'
-        + "\n".join(rows)
-        + "\n</tbody></table>"
+        f"<h2>Findings, the worst first</h2>\n<table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table>"
     )
 
 
