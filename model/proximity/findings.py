@@ -9,15 +9,20 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..worker.shown import Message
+from .bodies import AROUND, INSIDE, TOUCHING, Body
 from .bodies import OVERLAP as LEAST_OVERLAP
-from .bodies import TOUCHING, Body
 from .boxes import Floats
 
 OVERLAP, NEAR, PARTED = "overlap", "near", "parted"
 """The faults of a pair: they share a volume, their gap is below what is asked, or they do not touch as they are meant
 to."""
+SAME = "same"
+"""The same body in the same place; see `nesting`."""
 OPEN, EMPTY, UNBOUNDED, FAILED = "open", "empty", "unbounded", "failed"
 """Why less is known of a solid than of others."""
+
+ALL = 1.0 - 1e-9
+"""The share of a volume from which it is all of it."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -60,6 +65,16 @@ class Finding:
     def missing(self) -> float:
         """Millimetres of the clearance that are not there; of parts meant to touch, what is too much."""
         return abs(self.asked - self.gap)
+
+    @property
+    def coincident(self) -> bool:
+        """Whether both are the same body in the same place."""
+        return self.shares is not None and nesting(self.kind, self.shares) == SAME
+
+    @property
+    def nested(self) -> str:
+        """INSIDE or AROUND where one holds all of the other, though their surfaces may meet; else ""."""
+        return "" if self.shares is None or self.coincident else nesting(self.kind, self.shares)
 
     @property
     def badness(self) -> tuple[float, float]:
@@ -116,6 +131,18 @@ def shares_of(one: Body, other: Body, overlap: float) -> tuple[float, float]:
     """Which parts of two bodies' volumes an overlap in mm³ is."""
     least = LEAST_OVERLAP * overlap
     return min(overlap / max(one.volume, least), 1.0), min(overlap / max(other.volume, least), 1.0)
+
+
+def nesting(kind: str, shares: tuple[float, float]) -> str:
+    """What the first of two bodies that share something is to the second: SAME, INSIDE, AROUND, or "" for neither.
+
+    `kind` is that of their Relation, where surfaces that meet make an overlap of any of these.
+    """
+    if min(shares) >= ALL:
+        return SAME
+    if kind in (INSIDE, AROUND):
+        return kind
+    return INSIDE if shares[0] >= ALL else AROUND if shares[1] >= ALL else ""
 
 
 def meets_only(kind: str, overlap: float | None) -> bool:

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from .bodies import APART, AROUND, INSIDE, TOUCHING, Relation
-from .findings import EMPTY, NEAR, OPEN, OVERLAP, PARTED, Finding, Remark, Report, meets_only
-
-ALL = 1.0 - 1e-9
-"""The share of a volume from which it is all of it."""
+from .bodies import APART, INSIDE, TOUCHING, Relation
+from .findings import EMPTY, NEAR, OPEN, OVERLAP, PARTED, SAME, Finding, Remark, Report, meets_only, nesting
 
 
 def length_text(length: float) -> str:
@@ -35,12 +32,12 @@ def relation_words(names: tuple[str, str], relation: Relation, shares: tuple[flo
 def _overlap_words(names: tuple[str, str], kind: str, overlap: float, shares: tuple[float, float]) -> str:
     one, other = names
     volume = volume_text(overlap)
-    if min(shares) >= ALL:
+    found = nesting(kind, shares)
+    if found == SAME:
         return f"“{one}” and “{other}” are the same body in the same place: {volume}."
-    if kind == INSIDE or shares[0] >= ALL:
-        return f"“{one}” lies inside “{other}”, all of its {volume}."
-    if kind == AROUND or shares[1] >= ALL:
-        return f"“{other}” lies inside “{one}”, all of its {volume}."
+    if found:
+        inner, outer = (one, other) if found == INSIDE else (other, one)
+        return f"“{inner}” lies inside “{outer}”, all of its {volume}."
     return f"“{one}” and “{other}” overlap by {volume}."
 
 
