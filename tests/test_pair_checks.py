@@ -6,6 +6,7 @@ from lane_listener import Listener
 from PySide6.QtCore import QObject
 
 from solidtree.gui.jobs import Jobs
+from solidtree.model.document.errors import Refusal
 from solidtree.model.operations.checks import check_pair, set_clearance
 from solidtree.model.operations.operations import move, rename
 from solidtree.model.project.assets import default_store
@@ -13,7 +14,7 @@ from solidtree.model.proximity.checking import check_document, table_of
 from solidtree.model.proximity.checks import Checks
 from solidtree.model.proximity.memo import PairMemo
 from solidtree.model.proximity.words import finding_words, remark_words, report_words
-from solidtree.model.script import box, document_of, halfspace, open_document, sphere
+from solidtree.model.script import box, circle, document_of, halfspace, in_words, open_document, sphere
 from solidtree.model.worker.lane import Lane
 from solidtree.model.worker.messages import PairsChecked, Progress
 
@@ -165,3 +166,35 @@ def test_the_window_is_told_of_them(qtbot):
         assert told.args == [None, "it was cancelled"]
     finally:
         jobs.close()
+
+
+@pytest.mark.parametrize(
+    ("one", "other", "expected"),
+    [
+        (box(10), box(10).at(13), "“a” and “b” are 3 mm apart."),
+        (box(10), box(10).at(10, 10, 10), "“a” and “b” touch, and share no volume."),
+        (box(10), box(10), "“a” and “b” are the same body in the same place: 1,000 mm³."),
+        (box(10), box(2).at(4, 4, 4), "“b” lies inside “a”, all of its 8 mm³."),
+        (box(2).at(0, 4, 4), box(10), "“a” lies inside “b”, all of its 8 mm³."),
+        (box(10), box(10).at(9, 8), "“a” and “b” overlap by 20 mm³."),
+        (box(10).hidden(), box(1) - box(3), "“b” is empty: there is nothing of it to check."),
+    ],
+)
+def test_scripts_are_answered_in_words(one, other, expected):
+    assert in_words(one.named("a"), other.named("b")) == expected
+
+
+def test_scripts_are_answered_in_words_of_what_is_open_or_no_solid(sheet):
+    told = in_words(sheet, box(10).named("b"))
+    assert told == "“sheet” and “b” meet; whether they overlap cannot be told, since one is not closed."
+    assert "goes on without end" in in_words(halfspace().named("a"), box(10))
+    with pytest.raises(Refusal, match="an outline is none"):
+        in_words(box(10), circle(5))
+
+
+def test_of_very_many_findings_the_worst_are_told():
+    document = document_of(*[box(1).at(1.5 * place) for place in range(40)], large=box(9).at(-4))
+    report = check_document(document, TOLERANCE, Checks(100), most=10)
+    assert (len(report.findings), report.left_out) == (10, 41 * 40 // 2 - 10)
+    assert [finding.fault for finding in report.findings[:5]] == ["overlap"] * 4 + ["near"]
+    assert report_words(report).endswith(": 4 overlap, 816 are too near. Here are the worst 10.")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -12,10 +13,9 @@ import numpy as np
 from ..document.document import Document
 from ..mesh.faults.box_pairs import meeting
 from ..worker.shown import Message
-from .bodies import OVERLAP as LEAST_OVERLAP
 from .bodies import TOUCHING, Relation
 from .checks import Checks
-from .findings import NEAR, OPEN, OVERLAP, PARTED, Finding, Remark, Report, meets_only
+from .findings import NEAR, OVERLAP, PARTED, Finding, Remark, Report, badness, meets_only, shares_of
 from .memo import PairMemo, Standing
 from .words import finding_words, remark_words
 
@@ -41,17 +41,19 @@ def check_document(
     progress: Callable[[str], None] | None = None,
     told: Callable[[int, int], None] | None = None,
     bodies: bool = False,
+    most: int | None = None,
 ) -> Report:
     """Every pair of visible solids against the document's own checks, or others.
 
     Solids are evaluated within `tolerance` mm, and what is meant to touch may be so far apart. `progress` hears what is
     evaluated, `told` how many of the pairs whose boxes are near have been looked at; either may raise to stop, and the
-    memo keeps what is known by then. With `bodies` the findings carry the surfaces of the overlaps.
+    memo keeps what is known by then. With `bodies` the findings carry the surfaces of the overlaps. `most` is how many
+    findings are told, the worst; None: all.
     """
     memo, checks = memo or PairMemo(), checks or document.checks
     solids = memo.standing(document, tolerance, progress)
     pairs = _pairs(solids, checks)
-    found: list[tuple[Finding, _Asked]] = []
+    found: list[tuple[str, Relation, _Asked]] = []
     meets: dict[int, list[str]] = {}
     limits = [math.inf if asked.touching else asked.clearance for asked in pairs]
     ends = [(solids[asked.one], solids[asked.other]) for asked in pairs]
@@ -64,15 +66,18 @@ def check_document(
                 meets.setdefault(place, []).append(beside.root.name)
         fault = _fault(relation, asked, tolerance)
         if fault:
-            found.append((_finding(one, other, fault, relation, asked), asked))
-    found.sort(key=lambda pair: (pair[0].badness, pair[1].one, pair[1].other))
+            found.append((fault, relation, asked))
+    found.sort(key=lambda row: badness(row[1].overlap, abs(row[2].clearance - row[1].gap)))  # else as they stand
+    worst = [asked for *_, asked in found[:most]]
+    findings = [_finding(solids, *row) for row in found[:most]]
     return Report(
-        tuple(_with_bodies(found, solids, memo) if bodies else (finding for finding, _ in found)),
+        tuple(_with_bodies(findings, worst, solids, memo) if bodies else findings),
         tuple(_remarks(solids, meets)),
         checks.clearance,
         len(solids),
         len(solids) * (len(solids) - 1) // 2,
         len(pairs),
+        Counter(fault for fault, *_ in found),
         tuple(message for one in solids for message in one.messages),
     )
 
@@ -103,12 +108,13 @@ def _fault(relation: Relation, asked: _Asked, tolerance: float) -> str:
     return NEAR if asked.clearance > 0.0 and (relation.kind == TOUCHING or relation.gap < asked.clearance) else ""
 
 
-def _finding(one: Standing, other: Standing, fault: str, relation: Relation, asked: _Asked) -> Finding:
-    shares = None
+def _finding(solids: Sequence[Standing], fault: str, relation: Relation, asked: _Asked) -> Finding:
+    one, other, shares = solids[asked.one], solids[asked.other], None
     if fault == OVERLAP:
         bounds = np.array([one.body.bounds, other.body.bounds])
         bounds = np.array([bounds[:, 0].max(axis=0), bounds[:, 1].min(axis=0)])
-        shares = _share(relation, one), _share(relation, other)
+        assert relation.overlap is not None
+        shares = shares_of(one.body, other.body, relation.overlap)
     else:
         assert relation.points is not None
         bounds = np.array([relation.points.min(axis=0), relation.points.max(axis=0)])
@@ -118,15 +124,12 @@ def _finding(one: Standing, other: Standing, fault: str, relation: Relation, ask
     )  # fmt: skip
 
 
-def _share(relation: Relation, one: Standing) -> float:
-    assert relation.overlap is not None
-    return min(relation.overlap / max(one.body.volume, LEAST_OVERLAP * relation.overlap), 1.0)
-
-
-def _with_bodies(found: Sequence[tuple[Finding, _Asked]], solids: Sequence[Standing], memo: PairMemo) -> list[Finding]:
+def _with_bodies(
+    found: Sequence[Finding], pairs: Sequence[_Asked], solids: Sequence[Standing], memo: PairMemo
+) -> list[Finding]:
     """The findings with the surfaces of their overlaps, as long as there is room for them."""
     findings, room = [], MOST_SHOWN
-    for finding, asked in found:
+    for finding, asked in zip(found, pairs, strict=True):
         if finding.fault == OVERLAP and room > 0:
             body = memo.overlap(solids[asked.one], solids[asked.other])
             room -= len(body.triangles)
@@ -138,13 +141,7 @@ def _with_bodies(found: Sequence[tuple[Finding, _Asked]], solids: Sequence[Stand
 
 
 def _remarks(solids: Sequence[Standing], meets: Mapping[int, Sequence[str]]) -> list[Remark]:
-    found = []
-    for place, one in enumerate(solids):
-        if one.kind:
-            message = next((message.message for message in one.messages if message.error), "")
-            names = tuple(meets.get(place, ())) if one.kind == OPEN else ()
-            found.append(Remark(one.root.id, one.root.name, one.kind, message, names))
-    return found
+    return [one.remark(meets.get(place, ())) for place, one in enumerate(solids) if one.kind]
 
 
 def checked(

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..worker.shown import Message
-from .bodies import AROUND, INSIDE, OVERLAPPING, TOUCHING
+from .bodies import AROUND, INSIDE, TOUCHING, Body
+from .bodies import OVERLAP as LEAST_OVERLAP
 from .boxes import Floats
 
 OVERLAP, NEAR, PARTED = "overlap", "near", "parted"
 """The faults of a pair: they share a volume, their gap is below what is asked, or they do not touch as they are meant
 to."""
+SAME = "same"
+"""The same body in the same place; see `nesting`."""
 OPEN, EMPTY, UNBOUNDED, FAILED = "open", "empty", "unbounded", "failed"
 """Why less is known of a solid than of others."""
 
@@ -60,26 +64,21 @@ class Finding:
     @property
     def missing(self) -> float:
         """Millimetres of the clearance that are not there; of parts meant to touch, what is too much."""
-        return self.gap if self.fault == PARTED else max(self.asked - self.gap, 0.0)
+        return abs(self.asked - self.gap)
 
     @property
     def coincident(self) -> bool:
         """Whether both are the same body in the same place."""
-        return self.shares is not None and min(self.shares) >= ALL
+        return self.shares is not None and nesting(self.kind, self.shares) == SAME
 
     @property
     def nested(self) -> str:
         """INSIDE or AROUND where one holds all of the other, though their surfaces may meet; else ""."""
-        if self.kind in (INSIDE, AROUND):
-            return self.kind
-        if self.kind != OVERLAPPING or self.shares is None or self.coincident or max(self.shares) < ALL:
-            return ""
-        return INSIDE if self.shares[0] >= ALL else AROUND
+        return "" if self.shares is None or self.coincident else nesting(self.kind, self.shares)
 
     @property
     def badness(self) -> tuple[float, float]:
-        """Sorts the worst first: overlaps by volume, then by what is missing; what differs by rounding is the same."""
-        return -float(f"{self.overlap or 0.0:.9g}"), -float(f"{self.missing:.9g}")
+        return badness(self.overlap, self.missing)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,6 +99,7 @@ class Remark:
 class Report:
     """A check of a document: `findings`, the worst first, and `remarks` on solids that could not be checked wholly.
 
+    `faults` counts the findings by their fault, also those that are left out, since only so many were wanted.
     `clearance` is the one asked of all, in mm; `solids` is how many visible ones there are, `pairs` how many pairs of
     them, and `near` how many of these were looked at, since their boxes are near. `messages` are the evaluation's.
     """
@@ -110,11 +110,39 @@ class Report:
     solids: int
     pairs: int
     near: int
+    faults: Mapping[str, int] = field(default_factory=dict)
     messages: tuple[Message, ...] = ()
 
     @property
     def in_order(self) -> bool:
         return not self.findings
+
+    @property
+    def left_out(self) -> int:
+        return sum(self.faults.values()) - len(self.findings)
+
+
+def badness(overlap: float | None, missing: float) -> tuple[float, float]:
+    """Sorts the worst first: overlaps by volume, then by what is missing; what differs by rounding is the same."""
+    return -float(f"{overlap or 0.0:.9g}"), -float(f"{missing:.9g}")
+
+
+def shares_of(one: Body, other: Body, overlap: float) -> tuple[float, float]:
+    """Which parts of two bodies' volumes an overlap in mm³ is."""
+    least = LEAST_OVERLAP * overlap
+    return min(overlap / max(one.volume, least), 1.0), min(overlap / max(other.volume, least), 1.0)
+
+
+def nesting(kind: str, shares: tuple[float, float]) -> str:
+    """What the first of two bodies that share something is to the second: SAME, INSIDE, AROUND, or "" for neither.
+
+    `kind` is that of their Relation, where surfaces that meet make an overlap of any of these.
+    """
+    if min(shares) >= ALL:
+        return SAME
+    if kind in (INSIDE, AROUND):
+        return kind
+    return INSIDE if shares[0] >= ALL else AROUND if shares[1] >= ALL else ""
 
 
 def meets_only(kind: str, overlap: float | None) -> bool:

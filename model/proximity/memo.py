@@ -17,7 +17,7 @@ from ..solid.evaluate import ENDLESS, Evaluator
 from ..solid.results import SolidResult, arrays_of, messages_of, open_surface, remarks_on_lettering, result_of
 from ..worker.shown import Message
 from .bodies import AROUND, INSIDE, MEETING, Body, Relation, overlap_of, relation, relations
-from .findings import EMPTY, FAILED, OPEN, UNBOUNDED, Triangles
+from .findings import EMPTY, FAILED, OPEN, UNBOUNDED, Remark, Triangles
 
 MOST_TRIANGLES = 4 << 20
 """Of bodies that are kept, beside those of the last document."""
@@ -39,6 +39,8 @@ class Standing:
     key: Key
     body: Body
     problems: tuple[Problem, ...]
+    reach: float
+    """The largest of its coordinates, in mm."""
 
     @property
     def messages(self) -> tuple[Message, ...]:
@@ -53,6 +55,12 @@ class Standing:
             return OPEN
         return UNBOUNDED if any(p.error and p.message == ENDLESS for p in self.problems) else FAILED
 
+    def remark(self, meets: Sequence[str] = ()) -> Remark:
+        """Of one with such a kind; `meets` names the solids that an open surface meets."""
+        message = next((message.message for message in self.messages if message.error), "")
+        names = tuple(meets) if self.kind == OPEN else ()
+        return Remark(self.root.id, self.root.name, self.kind, message, names)
+
 
 def body_of(result: SolidResult) -> Body:
     """An evaluated root; a surface that is open is one that bounds no solid, and one that failed is empty."""
@@ -66,7 +74,7 @@ class PairMemo:
 
     def __init__(self, evaluator: Evaluator | None = None, resolver: Resolver | None = None) -> None:
         self._evaluator, self._resolver = evaluator or Evaluator(), resolver or Resolver()
-        self._bodies: OrderedDict[Key, tuple[Body, tuple[Problem, ...]]] = OrderedDict()
+        self._bodies: OrderedDict[Key, tuple[Body, tuple[Problem, ...], float]] = OrderedDict()
         self._relations: OrderedDict[tuple[Key, Key], tuple[float, Relation | None]] = OrderedDict()
         self._overlaps: OrderedDict[tuple[Key, Key], Triangles] = OrderedDict()
         self.looked_at = 0
@@ -83,7 +91,8 @@ class PairMemo:
             key = root.digest + f"{tolerance!r}".encode()
             if key not in self._bodies:
                 entry = self._evaluator.evaluate(root, tolerance, progress)
-                self._bodies[key] = body_of(result_of(root, entry)), entry.problems
+                body = body_of(result_of(root, entry))
+                self._bodies[key] = body, entry.problems, 0.0 if body.empty else float(np.abs(body.bounds).max())
             self._bodies.move_to_end(key)
             found.append(Standing(root, key, *self._bodies[key]))
         self._let_go(len({one.key for one in found}))
@@ -137,7 +146,8 @@ class PairMemo:
         pair = _pair(one, other)
         self._relations.move_to_end(pair)
         found = self._relations[pair][1]
-        if found is None or (found.gap > 0.0 and not found.gap < limit - _rounding(one.body, other.body)):
+        rounding = MEETING * 2.0 * max(one.reach, other.reach)  # as in `bodies.relation`
+        if found is None or (found.gap > 0.0 and not found.gap < limit - rounding):
             return None
         if one.key <= other.key:
             return found
@@ -157,16 +167,11 @@ class PairMemo:
 
     def _let_go(self, needed: int) -> None:
         """Of the oldest bodies, which the last document has no use for."""
-        held = sum(len(body.triangles) for body, _ in self._bodies.values())
+        held = sum(len(body.triangles) for body, *_ in self._bodies.values())
         while held > MOST_TRIANGLES and len(self._bodies) > needed:
-            _, (body, _) = self._bodies.popitem(last=False)
+            _, (body, *_) = self._bodies.popitem(last=False)
             held -= len(body.triangles)
 
 
 def _pair(one: Standing, other: Standing) -> tuple[Key, Key]:
     return min(one.key, other.key), max(one.key, other.key)
-
-
-def _rounding(one: Body, other: Body) -> float:
-    """Millimetres by which a gap is not known, as `bodies.relation` has it."""
-    return MEETING * 2.0 * float(np.abs((one.bounds, other.bounds)).max())

@@ -71,7 +71,8 @@ def page_of(
     if report.remarks:
         parts.append("<h2>Not known</h2>" + "".join(f"<p>{escape(remark_words(one))}</p>" for one in report.remarks))
     if figures:
-        parts.append("<h2>Pictures</h2>")
+        worst = f" of the worst {len(figures)}" if len(figures) < len(report.findings) else ""
+        parts.append(f"<h2>Pictures{worst}</h2>")
     parts += [_article(number, report.findings[number], figures[number]) for number in sorted(figures)]
     body = "\n".join(part for part in parts if part)
     return (
@@ -91,13 +92,13 @@ def _table(report: Report) -> str:
             f'<tr><td class="number">{number}</td><td>{escape(finding.names[0])}</td>'
             f"<td>{escape(finding.names[1])}</td>"
             f'<td>{TITLES.get(finding.fault, "Apart")}</td><td class="number">{_measure(finding)}</td>'
-            f'<td class="number">{asked}</td></tr>'
+            f'<td class="number">{asked}</td><td class="number">{_point(finding.bounds.mean(axis=0), 4)}</td></tr>'
         )
+    head = '<th class="number">No.</th><th>Solid</th><th>and</th><th>Fault</th>'
+    head += "".join(f'<th class="number">{title}</th>' for title in ("Gap or volume", "Asked", "About"))
+    body = "\n".join(rows)
     return (
-        '<h2>Findings, the worst first</h2>\n<table><thead><tr><th class="number">No.</th><th>Solid</th><th>and</th>'
-        '<th>Fault</th><th class="number">Gap or volume</th><th class="number">Asked</th></tr></thead>\n<tbody>\n'
-        + "\n".join(rows)
-        + "\n</tbody></table>"
+        f"<h2>Findings, the worst first</h2>\n<table><thead><tr>{head}</tr></thead>\n<tbody>\n{body}\n</tbody></table>"
     )
 
 
@@ -167,5 +168,5 @@ def _figure(figure: Figure, finding: Finding) -> str:
     )
 
 
-def _point(point: Floats) -> str:
-    return "(" + ", ".join(f"{value:.6g}" for value in (point.round(9) + 0.0).tolist()) + ")"
+def _point(point: Floats, figures: int = 6) -> str:
+    return "(" + ", ".join(f"{value:.{figures}g}" for value in (point.round(9) + 0.0).tolist()) + ")"

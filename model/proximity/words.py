@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .bodies import APART, AROUND, INSIDE, TOUCHING, Relation
-from .findings import EMPTY, NEAR, OPEN, OVERLAP, Finding, Remark, Report, meets_only
+from .bodies import APART, INSIDE, TOUCHING, Relation
+from .findings import EMPTY, NEAR, OPEN, OVERLAP, PARTED, SAME, Finding, Remark, Report, meets_only, nesting
 
 
 def length_text(length: float) -> str:
@@ -16,33 +16,37 @@ def volume_text(volume: float) -> str:
     return f"{volume:,.0f} mm³" if volume >= 1000.0 else f"{volume:.4g} mm³"
 
 
-def relation_words(one: str, other: str, relation: Relation) -> str:
-    """How the solid called `one` stands to the one called `other`, as a sentence."""
+def relation_words(names: tuple[str, str], relation: Relation, shares: tuple[float, float] = (0.0, 0.0)) -> str:
+    """How the first of two bodies stands to the second, as a sentence; `shares` see `shares_of`."""
+    both = f"“{names[0]}” and “{names[1]}”"
     if relation.kind == APART:
-        return f"“{one}” and “{other}” are {length_text(relation.gap)} apart."
+        return f"{both} are {length_text(relation.gap)} apart."
+    if meets_only(relation.kind, relation.overlap):
+        return f"{both} meet; whether they overlap cannot be told, since one is not closed."
     if relation.kind == TOUCHING:
-        if meets_only(relation.kind, relation.overlap):
-            return f"“{one}” and “{other}” meet; whether they overlap cannot be told, since one is not closed."
-        return f"“{one}” and “{other}” touch, and share no volume."
+        return f"{both} touch, and share no volume."
     assert relation.overlap is not None
-    if relation.kind in (INSIDE, AROUND):
-        inner, outer = (one, other) if relation.kind == INSIDE else (other, one)
-        return f"“{inner}” lies inside “{outer}”, all of its {volume_text(relation.overlap)}."
-    return f"“{one}” and “{other}” overlap by {volume_text(relation.overlap)}."
+    return _overlap_words(names, relation.kind, relation.overlap, shares)
+
+
+def _overlap_words(names: tuple[str, str], kind: str, overlap: float, shares: tuple[float, float]) -> str:
+    one, other = names
+    volume = volume_text(overlap)
+    found = nesting(kind, shares)
+    if found == SAME:
+        return f"“{one}” and “{other}” are the same body in the same place: {volume}."
+    if found:
+        inner, outer = (one, other) if found == INSIDE else (other, one)
+        return f"“{inner}” lies inside “{outer}”, all of its {volume}."
+    return f"“{one}” and “{other}” overlap by {volume}."
 
 
 def finding_words(finding: Finding) -> str:
     """What is wrong with a pair, as a sentence."""
     one, other = finding.names
     if finding.fault == OVERLAP:
-        assert finding.overlap is not None
-        volume = volume_text(finding.overlap)
-        if finding.coincident:
-            return f"“{one}” and “{other}” are the same body in the same place: {volume}."
-        if finding.nested:
-            inner, outer = (one, other) if finding.nested == INSIDE else (other, one)
-            return f"“{inner}” lies inside “{outer}”, all of its {volume}."
-        return f"“{one}” and “{other}” overlap by {volume}."
+        assert finding.overlap is not None and finding.shares is not None
+        return _overlap_words(finding.names, finding.kind, finding.overlap, finding.shares)
     if finding.fault == NEAR:
         asked = f"{length_text(finding.asked)} is asked"
         if finding.kind != TOUCHING:
@@ -69,9 +73,7 @@ def report_words(report: Report) -> str:
         return "A check takes two visible solids, and there is " + ("one." if report.solids else "none.")
     asked = f"a clearance of {length_text(report.clearance)}" if report.clearance else "no overlaps"
     looked = f"{report.pairs:,} pairs of {report.solids:,} solids" if report.pairs > 1 else "1 pair of solids"
-    overlaps = sum(finding.fault == OVERLAP for finding in report.findings)
-    near = sum(finding.fault == NEAR for finding in report.findings)
-    parted = len(report.findings) - overlaps - near
+    overlaps, near, parted = (report.faults.get(fault, 0) for fault in (OVERLAP, NEAR, PARTED))
     counted = [
         words
         for count, words in (
@@ -81,7 +83,8 @@ def report_words(report: Report) -> str:
         )
         if count
     ]
-    return f"{looked}, {asked} asked: {', '.join(counted) if counted else 'all in order'}."
+    worst = f" Here are the worst {len(report.findings):,}." if report.left_out else ""
+    return f"{looked}, {asked} asked: {', '.join(counted) if counted else 'all in order'}.{worst}"
 
 
 def _listed(names: tuple[str, ...], most: int = 4) -> str:

@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from ..proximity.bodies import Body, Relation
     from ..proximity.boxes import Nearest
 
+NO_SOLID = "this is asked of solids, and an outline is none: extrude or revolve it first"
+
 
 def distance(one: Node, other: Node, tolerance: float = 0.05) -> float:
     """Millimetres between two solids, 0 where they touch or share something. Raises Refusal where one has no surface.
@@ -58,6 +60,32 @@ def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
     found = relation_of(first, second)
     assert found is not None
     return found
+
+
+def in_words(one: Node, other: Node, tolerance: float = 0.05) -> str:
+    """How a solid stands to another, as a sentence; of what is empty or has failed, that it is so.
+
+    >>> in_words(box(10).named("case"), box(10).at(0, 0, 10).named("lid"))
+    '“case” and “lid” touch, and share no volume.'
+    """
+    from ..proximity.bodies import relation as relation_of
+    from ..proximity.findings import shares_of
+    from ..proximity.memo import PairMemo
+    from ..proximity.words import relation_words, remark_words
+
+    document = document_of(one, other)
+    shown = document.with_(solids=tuple(root.with_(visible=True) for root in document.solids))
+    solids = PairMemo().standing(shown, tolerance)
+    if len(solids) != 2:
+        raise Refusal(NO_SOLID)
+    unknown = [remark_words(solid.remark()) for solid in solids if solid.body.empty]
+    if unknown:
+        return " ".join(unknown)
+    first, second = solids
+    found = relation_of(first.body, second.body)
+    assert found is not None
+    shares = shares_of(first.body, second.body, found.overlap) if found.overlap else (0.0, 0.0)
+    return relation_words((first.root.name, second.root.name), found, shares)
 
 
 def clearances(
@@ -149,7 +177,7 @@ def _bodies(*solids: Node, tolerance: float) -> list[Body]:
 
     results = evaluate(*solids, tolerance=tolerance).solids
     if len(results) != len(solids):
-        raise Refusal("this is asked of solids, and an outline is none: extrude or revolve it first")
+        raise Refusal(NO_SOLID)
     bodies = [body_of(result) for result in results]
     for body, result in zip(bodies, results, strict=True):
         if body.empty:
@@ -161,6 +189,7 @@ def _bodies(*solids: Node, tolerance: float) -> list[Body]:
 __all__ = [
     "clearances",
     "distance",
+    "in_words",
     "inside",
     "meant_to_touch",
     "nearest",

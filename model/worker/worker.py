@@ -36,6 +36,8 @@ NICENESS = 5
 """How far the worker stands back, in the steps of Unix."""
 SORTING = "Sorting faces"
 PAIRS = "Pairs of solids"
+MOST_FINDINGS = 5000
+"""Of pairs, that are told: more than anybody reads through."""
 
 
 def work(connection: Connection, store_folder: str) -> None:
@@ -212,6 +214,7 @@ class _Worker:
             progress=progress,
             told=lambda done, total: progress.tell(done, total, PAIRS),
             bodies=True,
+            most=MOST_FINDINGS,
         )
         return "pairs", number, report
 
