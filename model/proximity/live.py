@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 from typing import Literal
@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from .boxes import Floats
 from .parts import Part
-from .sweep import Hit, first_hit
+from .sliding import Stop, Sweep
 
 Kind = Literal["overlaps", "touches", "close", "near"]
 KINDS: tuple[Kind, ...] = ("overlaps", "touches", "close", "near")
@@ -56,15 +56,21 @@ class LiveContacts:
     ) -> None:
         self.standing = [part for part in standing if not part.empty]
         self.dragged = [part for part in dragged if not part.empty]
-        self._clearance, self._reach = clearance, reach
+        self._reach = reach
+        self._clearances = {
+            (part.key, other.key): clearance(part.key, other.key) for part in self.dragged for other in self.standing
+        }
+        self._farthest = max([reach, *self._clearances.values()])
         self._low, self._high = (np.array([part.bounds[k] for part in self.standing]).reshape(-1, 3) for k in range(2))
         self._faces: dict[tuple[str, str], tuple[int, int]] = {}
-        self._through: set[tuple[str, str]] = set()
+        self._through: frozenset[tuple[str, str]] = frozenset()
+        self._sweeps: list[Sweep] = []
+        self._let_through(())
 
     def begin(self, pose: ArrayLike | None = None) -> tuple[Contact, ...]:
         """The contacts there; what is overlapped may be gone through."""
         found = self.contacts(np.eye(4) if pose is None else pose)
-        self._through = {_ends(contact) for contact in found if contact.kind == "overlaps"}
+        self._let_through(_ends(contact) for contact in found if contact.kind == "overlaps")
         return found
 
     def contacts(self, pose: ArrayLike) -> tuple[Contact, ...]:
@@ -81,35 +87,35 @@ class LiveContacts:
 
     def came_apart(self, contacts: Sequence[Contact]) -> None:
         """Others than these are overlapped no more, and stop what is dragged from now on."""
-        self._through &= {_ends(contact) for contact in contacts if contact.kind == "overlaps"}
+        still = self._through & {_ends(contact) for contact in contacts if contact.kind == "overlaps"}
+        if still != self._through:
+            self._let_through(still)
 
-    def stopped(self, pose: ArrayLike, way: ArrayLike) -> tuple[Floats, Hit | None]:
-        """How far (3,) the dragged parts come on a straight way (3,) in mm, and what stops them."""
-        start, vector = np.array(pose, np.float64), np.array(way, np.float64)
-        hit = self._first(start, vector)
-        return (vector if hit is None else hit.share * vector), hit
+    def stopped(self, by: ArrayLike, way: ArrayLike) -> tuple[Floats, Stop | None]:
+        """How far (3,) the dragged parts, shifted by (3,) mm, come on a straight way (3,), and what stops them."""
+        vector = np.array(way, np.float64)
+        stop = self._first(np.array(by, np.float64), vector)
+        return (vector if stop is None else _part(vector, stop)), stop
 
-    def slid(self, pose: ArrayLike, way: ArrayLike, within: ArrayLike | None = None) -> tuple[Floats, Hit | None]:
+    def slid(self, by: ArrayLike, way: ArrayLike, within: ArrayLike | None = None) -> tuple[Floats, Stop | None]:
         """The same where what is left of the way is gone along the planes of the contacts, as far as that leads on.
 
         `within` (k, 3) are unit vectors at right angles, in whose span the parts stay.
         """
-        start, left = np.array(pose, np.float64), np.array(way, np.float64)
+        start, left = np.array(by, np.float64), np.array(way, np.float64)
         span = np.eye(3) if within is None else np.reshape(np.asarray(within, np.float64), (-1, 3))
         whole, gone, normals = left.copy(), np.zeros(3), []
-        last: Hit | None = None
+        last: Stop | None = None
         tiny = 1e-12 * max(float(np.linalg.norm(whole)), 1e-3)
         for _ in range(TURNS):
-            here = start.copy()
-            here[:3, 3] += gone
-            hit = self._first(here, left)
-            if hit is None:
+            stop = self._first(start + gone, left)
+            if stop is None:
                 return gone + left, last
-            step, last = hit.share * left, hit
+            step, last = _part(left, stop), stop
             gone = gone + step
             if np.linalg.norm(step) > tiny:
                 normals = []
-            normals.append(hit.normal)
+            normals.append(stop.normal)
             left = _along(left - step, normals, span)
             if np.linalg.norm(left) <= tiny or left @ whole <= 0.0:
                 break
@@ -119,47 +125,42 @@ class LiveContacts:
         """The last angle from `start` on towards `end`, in degrees, at which nothing is overlapped; `poses` gives the
         pose of an angle, `about` (3,) is a point of the axis.
 
-        By conservative advancement (Mirtich 1996): no point moves farther than its way from the axis lets it. What the
-        gap allows less than a quarter of a degree is looked at that often.
+        By conservative advancement (Mirtich 1996): no point moves farther than its way from the axis lets it. Where the
+        gap allows less than a quarter of a degree it is looked at that often; what touches at the start may be
+        overlapped by as much as `Part.shrunk` is smaller.
         """
         reach = max((self._radius(part, poses(start), about) for part in self.dragged), default=0.0)
         if start == end or not reach:
             return end
+        meets = {_ends(one) for one in self.contacts(poses(start)) if one.kind == "touches"}
         sign, at = np.sign(end - start), start
         while at != end:
-            gap = self._free(poses(at), np.radians(abs(end - at)) * reach)
+            gap = self._free(poses(at), meets, np.radians(abs(end - at)) * reach)
             step = max(float(np.degrees(gap / reach)), LOOKS)
             to = end if step >= abs(end - at) else at + sign * step
-            if self._free(poses(to), 0.0) >= 0.0:
+            if self._free(poses(to), meets) >= 0.0:
                 at = to
                 continue
             free, blocked = at, to
             for _ in range(HALVINGS):
                 middle = (free + blocked) / 2.0
-                if self._free(poses(middle), 0.0) >= 0.0:
+                if self._free(poses(middle), meets) >= 0.0:
                     free = middle
                 else:
                     blocked = middle
             return free
         return end
 
-    @property
-    def _farthest(self) -> float:
-        keys = [(part.key, other.key) for part in self.dragged for other in self.standing]
-        return max((self._clearance(*ends) for ends in keys), default=0.0) if not self._reach else self._reach
-
-    def _within(self, part: Part, pose: Floats, limit: float, way: Floats | None = None) -> list[int]:
-        """Places of standing parts whose boxes come within a limit, on a way where there is one."""
+    def _within(self, part: Part, pose: Floats, limit: float) -> list[int]:
+        """Places of standing parts whose boxes come within a limit."""
         middle, half = part.bounds.mean(axis=0), np.ptp(part.bounds, axis=0) / 2.0
         centre, across = pose[:3, :3] @ middle + pose[:3, 3], np.abs(pose[:3, :3]) @ half
         low, high = centre - across - limit, centre + across + limit
-        if way is not None:
-            low, high = np.minimum(low, low + way), np.maximum(high, high + way)
         return np.flatnonzero(((self._low <= high) & (self._high >= low)).all(axis=1)).tolist()
 
     def _contact(self, part: Part, other: Part, pose: Floats) -> Contact | None:
         ends = part.key, other.key
-        clearance = self._clearance(*ends)
+        clearance = self._clearances[ends]
         near = MEETING * max(part.scale, other.scale)
         limit = max(clearance, self._reach, 2.0 * near)
         gap = other.tree.gap(part.tree, limit, pose, self._faces.get(ends))
@@ -201,26 +202,31 @@ class LiveContacts:
         away = holder.tree.nearest(marks[inside]).distances
         return bool((away > MEETING * max(holder.scale, held.scale)).any())
 
-    def _first(self, pose: Floats, way: Floats) -> Hit | None:
-        """What stops the dragged parts first."""
-        hits = [
-            hit
+    def _let_through(self, pairs: Iterable[tuple[str, str]]) -> None:
+        """Only the other pairs stop each other from now on."""
+        self._through = frozenset(pairs)
+        self._sweeps = [
+            Sweep(part, [other for other in self.standing if (part.key, other.key) not in self._through])
             for part in self.dragged
-            for number in self._within(part, pose, 0.0, way)
-            if (part.key, self.standing[number].key) not in self._through
-            and (hit := first_hit(part, pose, self.standing[number], way)) is not None
         ]
-        return min(hits, key=lambda hit: hit.share, default=None)
 
-    def _free(self, pose: Floats, limit: float) -> float:
-        """The least gap of the shrunk parts below the limit, else that; less than 0 where something is overlapped."""
+    def _first(self, by: Floats, way: Floats) -> Stop | None:
+        """What stops the dragged parts first."""
+        stops = [stop for sweep in self._sweeps if (stop := sweep.stop(by, way)) is not None]
+        return min(stops, key=lambda stop: stop.way, default=None)
+
+    def _free(self, pose: Floats, meets: Collection[tuple[str, str]], limit: float = 0.0) -> float:
+        """The least gap below the limit, else that; less than 0 where something is overlapped. Those of the pairs that
+        `meets` names are of the shrunk parts."""
         least = limit
         for part in self.dragged:
             for number in self._within(part, pose, limit):
                 other = self.standing[number]
-                if (part.key, other.key) in self._through:
+                ends = part.key, other.key
+                if ends in self._through:
                     continue
-                gap = other.tree.gap(part.shrunk, max(least, MEETING * part.scale), pose).length
+                tree = part.shrunk if ends in meets else part.tree
+                gap = other.tree.gap(tree, max(least, MEETING * part.scale), pose).length
                 if gap == 0.0 or self._inside(part, other, pose):
                     return -1.0
                 least = min(least, gap)
@@ -229,11 +235,16 @@ class LiveContacts:
     @staticmethod
     def _radius(part: Part, pose: Floats, about: Floats) -> float:
         centre = pose[:3, :3] @ part.bounds.mean(axis=0) + pose[:3, 3]
-        return float(np.linalg.norm(centre - about)) + part.radius
+        return float(np.linalg.norm(centre - about) + np.linalg.norm(np.ptp(part.bounds, axis=0)) / 2.0)
 
 
 def _ends(contact: Contact) -> tuple[str, str]:
     return contact.moving.key, contact.standing.key
+
+
+def _part(way: Floats, stop: Stop) -> Floats:
+    """What of a way (3,) is gone where it is stopped; nothing of it is lost to rounding along one axis."""
+    return way * (stop.way / float(np.linalg.norm(way)))
 
 
 def _along(way: Floats, normals: Sequence[Floats], span: Floats) -> Floats:
