@@ -110,7 +110,12 @@ class MainWindow(QMainWindow):
         self.section_tool = SectionTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.section_tool)
         self.handles = Handles(
-            self.viewport, self.session, self.settings, lambda: self.looks.ghosts, self.files.background
+            self.viewport,
+            self.session,
+            self.settings,
+            lambda: self.looks.ghosts,
+            self.files.background,
+            lambda: not self.evaluation.waiting,
         )
         self.viewport.add_tool(self.handles)
         self.edit_tool = EditTool(self.session, self.viewport, self.curve, self.handles, self.settings)

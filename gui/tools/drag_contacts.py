@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from typing import TYPE_CHECKING, Literal
 from weakref import WeakKeyDictionary
 
@@ -15,6 +15,7 @@ from .handle_drags import MoveDrag, TurnDrag
 if TYPE_CHECKING:
     from ...model.document.document import Document
     from ...model.document.errors import Refusal
+    from ...model.document.nodes import Node
     from ...model.proximity.live import Contact, LiveContacts
     from ...model.proximity.parts import Part
     from ...model.solid.display import DisplayMesh
@@ -38,9 +39,12 @@ class DragContacts(QObject):
     mode_changed = Signal()
     ready = Signal()
 
-    def __init__(self, settings: Settings, background: Background, parent: QObject) -> None:
+    def __init__(
+        self, settings: Settings, background: Background, settled: Callable[[], bool], parent: QObject
+    ) -> None:
+        """`settled` tells whether the meshes that are shown are those of the document."""
         super().__init__(parent)
-        self._settings, self._background = settings, background
+        self._settings, self._background, self._settled = settings, background, settled
         self.mode: Mode = settings.choice("contacts", MODES)  # type: ignore[assignment]
         self._viewer: Viewer | None = None
         self._marks: ContactMarks | None = None
@@ -51,6 +55,8 @@ class DragContacts(QObject):
         self._rigid = False
         """Whether they are dragged as they are, so that their first meshes serve for all of the drag."""
         self._live: LiveContacts | None = None
+        self._rest: tuple[Document | None, dict[str, DisplayMesh]] = (None, {})
+        """What was shown of which document when all of it was."""
         self._meshes: dict[str, DisplayMesh] = {}
         self._drag: Drag | None = None
         self._place: Floats | float | None = None
@@ -90,13 +96,14 @@ class DragContacts(QObject):
 
     def shown(self) -> None:
         """Other meshes are in the picture. Parts that are dragged as they are keep the first ones."""
-        if self._document is None or self._viewer is None:
-            return
-        now = self._viewer.scene.solid_meshes
-        changed = {key for key, mesh in now.items() if self._meshes.get(key) is not mesh}
-        if changed - set(self._moved) or (changed and not self._rigid):
+        if self._document is not None and not self._rigid:
             self._make()
             self.follow()
+
+    def rest(self, document: Document) -> None:
+        """No drag is under way, and the meshes in the picture may be those of this document."""
+        if self._viewer is not None and self._settled():
+            self._rest = document, self._viewer.scene.solid_meshes
 
     def hold(self) -> None:
         """Take the drag back to where it does not overlap, where the user wants that."""
@@ -155,13 +162,13 @@ class DragContacts(QObject):
         viewer, document, drag = self._viewer, self._document, self._drag
         if viewer is None or document is None:
             return
-        shown = viewer.scene.solid_meshes
-        if self._rigid:  # the dragged ones stay those of the beginning
-            shown |= {key: mesh for key, mesh in self._meshes.items() if key in self._moved}
-        self._meshes = shown
-        visible = {root.id for root in document.solids if root.visible}
-        meshes = {key: mesh for key, mesh in shown.items() if key in visible and len(mesh.corners)}
-        parts = {key: self._part(key, mesh) for key, mesh in meshes.items()}
+        self._meshes = shown = viewer.scene.solid_meshes
+        parts: dict[str, Part] = {}
+        for root in document.solids:
+            if root.visible and root.id in shown:
+                part = self._standing_at(root) if self._rigid else self._part(root.id, shown[root.id])
+                if part is not None and not part.empty:
+                    parts[root.id] = part
         raw = [part for part in parts.values() if "tree" not in part.__dict__]
 
         def use() -> None:
@@ -218,6 +225,33 @@ class DragContacts(QObject):
         if part is None or part.key != key:
             part = self._parts[mesh] = Part(key, mesh.vertices, mesh.corners)
         return part
+
+    def _standing_at(self, root: Node) -> Part | None:
+        """A root where the document has it, which the picture may not show yet; None where it has another shape."""
+        import numpy as np
+
+        from ...model.document.document import parameter_values
+        from ...model.document.placement import inverse, product
+        from ...model.proximity.parts import Part
+
+        before, meshes = self._rest
+        document = self._document
+        if document is None or before is None:
+            return None
+        if root.id not in meshes:
+            return self._part(root.id, self._meshes[root.id])
+        mesh = meshes[root.id]
+        known = next((one for one in before.solids if one.id == root.id), None)
+        same = before.parameters == document.parameters and before.definitions == document.definitions
+        if known is None or not same or known.shape_digest != root.shape_digest:
+            return None
+        if known.placement == root.placement:
+            return self._part(root.id, mesh)
+        values = parameter_values(document.parameters)[0]
+        old, new = (one.placement.resolve(values).matrix() for one in (known, root))
+        moved = product(new, inverse(old))
+        corners = mesh.corners if np.linalg.det(moved[:, :3]) > 0.0 else mesh.corners[:, ::-1]
+        return Part(root.id, mesh.vertices @ moved[:, :3].T + moved[:, 3], corners)
 
     def _mark(self) -> None:
         if self._marks is None:

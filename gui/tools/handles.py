@@ -47,9 +47,10 @@ class Handles(Tool):
         settings: Settings,
         half_spaces_seen: Callable[[], bool],
         background: Background,
+        settled: Callable[[], bool],
     ) -> None:
         super().__init__(viewport)
-        self.contacts = DragContacts(settings, background, self)
+        self.contacts = DragContacts(settings, background, settled, self)
         self.contacts.ready.connect(self._meet)
         self._half_spaces_seen = half_spaces_seen
         self._viewport, self._session, self._settings = viewport, session, settings
@@ -146,6 +147,7 @@ class Handles(Tool):
 
     def shown(self) -> None:
         if self._drag is None:
+            self.contacts.rest(self._session.view)
             self._show()
         else:
             self.contacts.shown()
@@ -283,7 +285,7 @@ class Handles(Tool):
         values = parameter_values(self._start.parameters)[0]
         drag.resolve = lambda value: float(resolved(value, values))
         self._entry = Entry(drag.names, drag.first)
-        self.contacts.begin(self._start, self._picture.gizmos.ids, drag)
+        self.contacts.begin(self._session.view, self._picture.gizmos.ids, drag)
         self._picture.begin(name if held else None)
         self._picture.go(x, y)
         self.hint.emit(f"{drag.label}: {KEYS}")
