@@ -71,7 +71,7 @@ class DragContacts(QObject):
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.contact_marks import ContactMarks
 
-        self._viewer, self._marks = viewer, ContactMarks()
+        self._viewer, self._marks = viewer, ContactMarks(viewer)
         viewer.overlay.add(self._marks)
 
     def closing(self) -> None:

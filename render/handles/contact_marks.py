@@ -20,6 +20,7 @@ from .pen import Labels, LabelText, Pen, ink_of
 
 if TYPE_CHECKING:
     from ...model.solid.display import DisplayMesh
+    from ..viewer import Viewer
 
 Floats = NDArray[np.float64]
 Kind = Literal["overlaps", "touches", "close", "near"]
@@ -28,7 +29,8 @@ INKS: dict[Kind, tuple[str, str]] = {
     "overlaps": ("#c62f25", "#ff8479"), "touches": ("#14803c", "#5fd38d"), "close": ("#b06000", "#ffb454"),
 }  # fmt: skip
 """On light ground and on dark; those that are only near are not lit up."""
-FILL, RIM, WIDTH, DOT = 0.28, 2.4, 2.0, 4.4  # opacity of faces; logical pixels
+FILL, THROUGH = 0.45, 0.6  # opacity of faces, and of edges, which are seen through solids
+RIM, WIDTH, DOT = 1.8, 2.0, 4.4  # logical pixels
 
 ABOVE = np.array([0.0, -14.0])
 """Pixels from the middle of a line to the words about it."""
@@ -45,15 +47,20 @@ class MarkedContact:
 
 
 class ContactMarks:
-    """A `Mark`. What lies behind a solid is seen as well: most contacts do."""
+    """A `Mark` but for the faces that are lit up, which stand among the solids of a viewer's picture, so that what is
+    before them hides them. Edges and contacts are seen through everything: most contacts lie hidden."""
 
-    def __init__(self) -> None:
+    def __init__(self, viewer: Viewer) -> None:
         self._look = LIGHT
         self._lit: dict[Kind, tuple[vtkActor, vtkActor]] = {kind: (_actor(), _actor()) for kind in INKS}
         self._meshes: dict[Kind, tuple[DisplayMesh, ...]] = {}
         for fill, rim in self._lit.values():
             fill.GetProperty().SetOpacity(FILL)
-            rim.GetProperty().SetOpacity(0.9)
+            rim.GetProperty().SetOpacity(THROUGH)
+            mapper = fill.GetMapper()
+            mapper.SetResolveCoincidentTopologyToPolygonOffset()
+            mapper.SetRelativeCoincidentTopologyPolygonOffsetParameters(0.0, -1.0)
+            viewer.renderer.AddActor(fill)
         self._strokes = _actor()
         self._data = vtkPolyData()
         self._strokes.GetMapper().SetInputDataObject(self._data)
@@ -62,7 +69,7 @@ class ContactMarks:
 
     @property
     def props(self) -> Sequence[vtkProp]:
-        return (*(actor for pair in self._lit.values() for actor in pair), self._strokes, *self._labels.props)
+        return (*(rim for _, rim in self._lit.values()), self._strokes, *self._labels.props)
 
     @property
     def lit(self) -> dict[Kind, int]:
