@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from solidtree.model.document.placement import turn_about
+from solidtree.model.partition.native import available
 from solidtree.model.proximity.live import LiveContacts
 from solidtree.model.proximity.parts import Part
 from solidtree.model.script import box, cylinder, document_of, sphere
@@ -118,6 +119,7 @@ def test_a_turn_ends_where_a_corner_meets_the_wall():
     assert live.turned(pose, 0.0, 77.0, np.zeros(3)) == 77.0
 
 
+@pytest.mark.skipif(not available(), reason="there is no compiled code here")
 @pytest.mark.parametrize("seed", range(4))
 def test_whatever_the_way_nothing_overlaps_at_its_end(seed):
     rng = np.random.default_rng(seed)
