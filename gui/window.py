@@ -110,7 +110,14 @@ class MainWindow(QMainWindow):
         add_commands(self.actions_, self)
         self.section_tool = SectionTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.section_tool)
-        self.handles = Handles(self.viewport, self.session, self.settings, lambda: self.looks.ghosts)
+        self.handles = Handles(
+            self.viewport,
+            self.session,
+            self.settings,
+            lambda: self.looks.ghosts,
+            self.files.background,
+            lambda: not self.evaluation.waiting,
+        )
         self.viewport.add_tool(self.handles)
         self.edit_tool = EditTool(self.session, self.viewport, self.curve, self.handles, self.settings)
         self.viewport.add_tool(self.edit_tool)

@@ -38,7 +38,8 @@ ORDER = {
     "convert_to_path convert_to_bspline - elevate_degree reduce_degree refine_knots - "
     "reverse_contours split_outline - mirror_outline_x mirror_outline_y - edit_font Curve/Fonts - "
     "curve_panel curvature_comb construction",
-    "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping - Tools/Arrange - "
+    "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping "
+    "Tools/Contacts_while_dragging - Tools/Arrange - "
     "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces Tools/Normals "
     "Tools/Mesh bitmap_inspector follow_vertex - faults repair_faults - "
     "clearance meant_to_touch clearance_report - tool_menu",

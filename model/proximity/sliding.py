@@ -45,7 +45,7 @@ class Sweep:
         self._known: set[int] = set(self._free)
         if not moving.empty:
             most = max([float(np.abs(body.bounds).max()) for body in (moving, *self.standing) if not body.empty])
-            self._shrunk = BoxTree(_shrunk(moving.vertices, moving.triangles, HAIR * most)[moving.triangles])
+            self._shrunk = BoxTree(drawn_in(moving.vertices, moving.triangles, HAIR * most)[moving.triangles])
             self._boxes = np.array([np.zeros((2, 3)) if body.empty else body.bounds for body in self.standing])
 
     def stop(self, by: ArrayLike, way: ArrayLike) -> Stop | None:
@@ -110,7 +110,7 @@ class Sweep:
         return None if found is None else Stop(found[0], k, *found[1:])
 
 
-def _shrunk(vertices: Floats, triangles: NDArray[np.integer], by: float) -> Floats:
+def drawn_in(vertices: Floats, triangles: NDArray[np.integer], by: float) -> Floats:
     """(n, 3) the vertices drawn in by about `by` mm, along the sums of their faces' normals weighted with the angles
     there (Baerentzen and Aanaes 2005, "Signed distance computation using the angle weighted pseudonormal")."""
     corners = vertices[triangles]
