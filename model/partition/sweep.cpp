@@ -1,4 +1,4 @@
-// How far a surface can go along a direction until it meets another one, compiled. The same as model/proximity/sliding.py
+// How far a surface can go along a direction until it meets another one, compiled. The same as model/proximity/straight.py
 // has it in NumPy, which says how it is decided; native.py there calls this through ctypes.
 
 #include "boxes.h"

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 
 from .boxes import Floats
 from .parts import Part
-from .sliding import Stop, Sweep
+from .straight import Stop, Sweep
 
 Kind = Literal["overlaps", "touches", "close", "near"]
 KINDS: tuple[Kind, ...] = ("overlaps", "touches", "close", "near")

@@ -102,7 +102,7 @@ def nearest(tree: Tree, points: Floats, limit: float) -> tuple[Floats, Floats, N
 def sweep(
     moving: Tree, exact: Floats, standing: Tree, by: Floats, along: Floats, limit: float
 ) -> tuple[float, Floats, Floats, tuple[int, int]]:
-    """See `sliding.Sweep`; all arrays are contiguous, `moving` is the tree of `exact` (n, 3, 3) when shrunk."""
+    """See `straight.Sweep`; all arrays are contiguous, `moving` is the tree of `exact` (n, 3, 3) when shrunk."""
     found, faces = np.empty(7), np.empty(2, np.int32)
     _check(
         library().proximity_sweep(

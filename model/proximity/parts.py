@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from .bodies import Body
 from .boxes import BoxTree, Floats
-from .sliding import drawn_in
+from .straight import drawn_in
 
 SHRINK = 1e-6
 """The share of a part's coordinates by which it is shrunk."""

@@ -1,4 +1,4 @@
-"""How far a body can be moved along a direction until it meets others, and how it goes on along these.
+"""How far a body can be moved along a direction until it meets others.
 
 What moves is tested a hair smaller than it is, so that what it lies flush with holds it back only where it would go in;
 how far it can go is then told by the very planes that come together: a corner's and a face's, or of two sides (Canny
@@ -19,8 +19,6 @@ from .boxes import BoxTree, Floats
 
 HAIR = 1e-9
 """The share of the coordinates by which what moves is shrunk."""
-TURNS = 4
-"""How often a body that slides changes its direction in one go."""
 BATCH = 1 << 18
 """Pairs of triangles at a time, in NumPy."""
 
@@ -67,27 +65,6 @@ class Sweep:
                 best = found
         return best
 
-    def slid(self, by: ArrayLike, way: ArrayLike) -> tuple[Floats, list[Stop]]:
-        """How far the body comes (3,) on its way (3,) where it slides along what holds it back, and all that did.
-
-        What is left of the way is laid into the plane that the body met; of two planes along their line, so that it
-        comes to rest in a corner.
-        """
-        start, left = np.array(by, float).reshape(3), np.array(way, float).reshape(3)
-        gone, planes, stops = np.zeros(3), [], []
-        for _ in range(TURNS):
-            found = self.stop(start + gone, left)
-            if found is None:
-                return gone + left, stops
-            stops.append(found)
-            gone = gone + found.way / float(np.linalg.norm(left)) * left
-            left = left * (1.0 - found.way / float(np.linalg.norm(left)))
-            planes.append(found.normal)
-            left = _laid(left, planes)
-            if not np.linalg.norm(left) > HAIR * max(float(np.linalg.norm(way)), 1.0):
-                break
-        return gone, stops
-
     def _lets_through(self, k: int) -> bool:
         """Whether the body overlapped this one at first."""
         if k not in self._known:
@@ -122,25 +99,6 @@ def drawn_in(vertices: Floats, triangles: NDArray[np.integer], by: float) -> Flo
         angle = np.arctan2(np.linalg.norm(np.cross(one, other), axis=1), np.einsum("ij,ij->i", one, other))
         np.add.at(sums, triangles[:, k], angle[:, None] * normals)
     return vertices - by * sums / np.maximum(np.linalg.norm(sums, axis=1, keepdims=True), 1e-300)
-
-
-def _laid(way: Floats, planes: list[Floats]) -> Floats:
-    """(3,) of a way what leads into none of the planes that were met; nothing where three are in the way."""
-    if all(float(way @ normal) >= 0.0 for normal in planes):
-        return way
-    along = [way - (way @ normal) * normal for normal in planes]
-    for one in along:
-        if all(float(one @ normal) >= -1e-12 * float(np.linalg.norm(way)) for normal in planes):
-            return one
-    for i, one in enumerate(planes):
-        for other in planes[:i]:
-            line = np.cross(one, other)
-            square = float(line @ line)
-            if square > 1e-12:
-                laid = (way @ line) / square * line
-                if all(float(laid @ normal) >= -1e-9 * float(np.linalg.norm(way)) for normal in planes):
-                    return laid
-    return np.zeros(3)
 
 
 def _met(
