@@ -30,6 +30,7 @@ MODES: tuple[Mode, ...] = ("show", "stop", "slide", "off")
 
 REACH = 40.0  # logical pixels within which parts are told of
 AT_ONCE = 100_000  # triangles that are made ready while the pointer waits
+MOST_PLAIN = 2_000  # triangles of all parts where there is no compiled code
 MOST_WORDS = 3  # contacts that are named beside the pointer
 
 
@@ -159,6 +160,8 @@ class DragContacts(QObject):
 
     def _make(self) -> None:
         """Get the parts ready: at once, or where they are large in the background."""
+        from ...model.partition.native import available
+
         viewer, document, drag = self._viewer, self._document, self._drag
         if viewer is None or document is None:
             return
@@ -183,7 +186,9 @@ class DragContacts(QObject):
         def refused(refusal: Refusal) -> None:
             """There is nothing to refuse."""
 
-        if sum(len(part.triangles) for part in raw) > AT_ONCE:
+        if not available() and sum(len(part.triangles) for part in parts.values()) > MOST_PLAIN:
+            self._live = None  # it would hold the pointer up
+        elif sum(len(part.triangles) for part in raw) > AT_ONCE:
             self._live = None
             self._background.run("Getting ready for contacts", work, lambda _: use(), refused)
         else:
