@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QMainWindow
 
 from ..model.editing.session import Session, State
 from ..model.surface.faults import bitmap_faults
+from .clearance.panel import ClearancePanel
 from .commands.actions import Actions
 from .commands.menus import fill_menus
 from .commands.nodes import NODE_BUTTONS
@@ -201,6 +202,7 @@ class MainWindow(QMainWindow):
         self.pipeline = PipelinePanel(self)
         self.mesh = MeshPanel(self)
         self.faults = FaultsPanel(self)
+        self.clearance = ClearancePanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -227,6 +229,7 @@ class MainWindow(QMainWindow):
             bottom={
                 "Problems": self.problems,
                 "Faults": self.faults,
+                "Clearance": self.clearance,
                 "Sections": self.sections,
                 "Script": self.script,
                 "Measure": self.measurements,
@@ -256,6 +259,7 @@ class MainWindow(QMainWindow):
             self.surfaces,
             self.mesh,
             self.faults,
+            self.clearance,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)
@@ -313,6 +317,9 @@ class MainWindow(QMainWindow):
 
     def show_faults(self) -> None:
         raise_dock(self, "Faults", FAULTS_HEIGHT)
+
+    def show_clearance(self) -> None:
+        raise_dock(self, "Clearance", FAULTS_HEIGHT)
 
     def count_problems(self, count: int) -> None:
         self.docks["Problems"].setWindowTitle(f"Problems ({count})" if count else "Problems")

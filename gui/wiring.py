@@ -33,6 +33,7 @@ def connect(window: MainWindow) -> None:
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     _faults(window)
+    _clearance(window)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
     _pipeline(window)
     window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
@@ -63,6 +64,7 @@ def _words(window: MainWindow) -> None:
         window.pipeline,
         window.mesh,
         window.faults,
+        window.clearance,
         window.light_tool,
         window.mapping_tool,
     ):
@@ -191,6 +193,23 @@ def _faults(window: MainWindow) -> None:
         mesh.made.connect(pair)
 
     panel.dirty.connect(show)
+    panel.made.connect(made)
+
+
+def _clearance(window: MainWindow) -> None:
+    """A pair in the picture, a fault there and the tools that have the clicks give way to one another."""
+    panel = window.clearance
+    window.docks["Clearance"].visibilityChanged.connect(panel.set_in_front)
+    window.docks["Clearance"].visibilityChanged.connect(window.actions_.refresh)
+    window.files.opened.connect(panel.document_opened)
+    panel.said.connect(window.status.say)
+
+    def made() -> None:
+        assert panel.picture is not None
+        panel.picture.began.connect(window.faults.leave)
+        for tool in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+            tool.began.connect(panel.leave)
+
     panel.made.connect(made)
 
 
