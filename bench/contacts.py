@@ -10,12 +10,14 @@ from __future__ import annotations
 
 import tempfile
 import time
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
 from pointer import opened, swing, until
 
 if TYPE_CHECKING:
+    from solidtree.gui.tools.drag_contacts import Mode
     from solidtree.model.document.document import Document
     from solidtree.model.solid.display import DisplayMesh
     from solidtree.render.camera import Camera
@@ -43,16 +45,23 @@ def parts() -> Document:
     )
 
 
-def dragged(
-    document: Document, mode: str
-) -> tuple[list[float], list[int], tuple[int, int], dict[str, DisplayMesh], Camera]:
-    """Seconds that contacts took at each move and how many there were; size, meshes and camera of the window."""
+@dataclass(frozen=True, slots=True, eq=False)
+class View:
+    """What the window showed at the end, and its size in pixels."""
+
+    meshes: dict[str, DisplayMesh]
+    camera: Camera
+    size: tuple[int, int]
+
+
+def dragged(document: Document, mode: Mode) -> tuple[list[float], list[int], View]:
+    """Seconds that contacts took at each move and how many there were."""
     from solidtree.render.camera import project
 
     home = tempfile.TemporaryDirectory(prefix="solidtree-bench-")
     window, viewer = opened(document, home.name)
     contacts = window.handles.contacts
-    contacts.set_mode(mode)  # type: ignore[arg-type]
+    contacts.set_mode(mode)
     root = document.solids[5 * SIDE + 5]
     window.session.select([root.id])
     start = time.perf_counter()
@@ -79,12 +88,11 @@ def dragged(
     ends = project(viewer.camera, [place, place + (1.0, 0.0, 0.0)], viewer.size)[:, :2]  # noqa: RUF005
     along = (ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0])
     swing(window, ends[0] + 60.0 * along, along, SECONDS)
-    meshes = viewer.scene.solid_meshes
-    camera, size = viewer.camera, viewer.window.GetSize()
+    view = View(viewer.scene.solid_meshes, viewer.camera, viewer.window.GetSize())
     window.handles.cancel()
     window.session.mark_saved(window.session.document)
     window.close()
-    return taken, counts, size, meshes, camera
+    return taken, counts, view
 
 
 def alone(document: Document, meshes: dict[str, DisplayMesh]) -> tuple[list[float], list[int]]:
@@ -105,7 +113,7 @@ def alone(document: Document, meshes: dict[str, DisplayMesh]) -> tuple[list[floa
     return taken, counts
 
 
-def bare(size: tuple[int, int], meshes: dict[str, DisplayMesh], camera: Camera) -> list[float]:
+def bare(view: View) -> list[float]:
     """Seconds of each redraw of a window of VTK's alone, without the smoothing that it has by itself."""
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper, vtkRenderer, vtkRenderWindow
 
@@ -114,16 +122,16 @@ def bare(size: tuple[int, int], meshes: dict[str, DisplayMesh], camera: Camera) 
 
     window, renderer = vtkRenderWindow(), vtkRenderer()
     window.SetMultiSamples(0)
-    window.SetSize(*size)
+    window.SetSize(*view.size)
     window.AddRenderer(renderer)
-    for mesh in meshes.values():
+    for mesh in view.meshes.values():
         mapper, actor = vtkPolyDataMapper(), vtkActor()
         mapper.SetInputData(surface_of(mesh))
         actor.SetMapper(mapper)
         renderer.AddActor(actor)
-    boxes = np.array([mesh.bounds for mesh in meshes.values()])
+    boxes = np.array([mesh.bounds for mesh in view.meshes.values()])
     bounds = np.array([boxes[:, 0].min(axis=0), boxes[:, 1].max(axis=0)])
-    apply(camera, renderer.GetActiveCamera(), bounds)
+    apply(view.camera, renderer.GetActiveCamera(), bounds)
     window.Render()
     found: list[float] = []
     end = time.perf_counter() + SECONDS / 2
@@ -135,26 +143,27 @@ def bare(size: tuple[int, int], meshes: dict[str, DisplayMesh], camera: Camera) 
     return found
 
 
+def row(title: str, taken: list[float], counts: list[int], redraw: float) -> None:
+    median, high = np.median(taken), np.quantile(taken, 0.95)
+    print(
+        f"{title:8} {len(taken):6} {np.mean(counts):9.1f} {1000 * redraw:6.1f} ms {1000 * median:6.2f} ms "
+        f"{1000 * high:6.2f} ms   {median / redraw:.3f} {high / redraw:.3f}"
+    )
+
+
 def main() -> None:
     from solidtree.gui.application import make_application
 
     application = make_application()
     document = parts()
-    for mode in ("show", "stop", "slide", "alone"):
-        if mode == "alone":
-            taken, counts = alone(document, meshes)
-        else:
-            taken, counts, size, meshes, camera = dragged(document, mode)
-            redraw = float(np.median(bare(size, meshes, camera)))
-        if mode == "show":
-            triangles = sum(len(mesh.triangles) for mesh in meshes.values())
-            print(f"a part among {len(meshes)} of {triangles:,} triangles, {size[0]} x {size[1]} pixels")
-            print(f"{'':8} {'moves':>6} {'contacts':>9} {'redraw':>9} {'median':>9} {'95 %':>9}   of the redraw")
-        median, high = np.median(taken), np.quantile(taken, 0.95)
-        print(
-            f"{mode:8} {len(taken):6} {np.mean(counts):9.1f} {1000 * redraw:6.1f} ms {1000 * median:6.2f} ms "
-            f"{1000 * high:6.2f} ms   {median / redraw:.3f} {high / redraw:.3f}"
-        )
+    print(f"{'':8} {'moves':>6} {'contacts':>9} {'redraw':>9} {'median':>9} {'95 %':>9}   of the redraw")
+    for mode in ("show", "stop", "slide"):
+        taken, counts, view = dragged(document, mode)
+        row(mode, taken, counts, float(np.median(bare(view))))
+    redraw = float(np.median(bare(view)))
+    row("alone", *alone(document, view.meshes), redraw)
+    triangles = sum(len(mesh.triangles) for mesh in view.meshes.values())
+    print(f"{len(view.meshes)} parts of {triangles:,} triangles, {view.size[0]} x {view.size[1]} pixels")
     del application
 
 
