@@ -8,13 +8,13 @@ from weakref import WeakKeyDictionary
 
 from PySide6.QtCore import QObject, Signal
 
+from ...model.document.errors import Refusal
 from ...model.document.tree import homes
 from ...model.measuring.elements import short
 from .handle_drags import MoveDrag, TurnDrag
 
 if TYPE_CHECKING:
     from ...model.document.document import Document
-    from ...model.document.errors import Refusal
     from ...model.document.nodes import Node
     from ...model.proximity.live import Contact, LiveContacts
     from ...model.proximity.parts import Part
@@ -35,9 +35,8 @@ MOST_WORDS = 3  # contacts that are named beside the pointer
 
 
 class DragContacts(QObject):
-    """Of one drag at a time. `mode_changed` tells of another choice; `ready` that what took long is there now."""
+    """Of one drag at a time. `ready` tells that what took long to make is there now."""
 
-    mode_changed = Signal()
     ready = Signal()
 
     def __init__(
@@ -67,7 +66,6 @@ class DragContacts(QObject):
     def set_mode(self, mode: Mode) -> None:
         self.mode = mode
         self._settings.set_choice("contacts", mode)
-        self.mode_changed.emit()
 
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.contact_marks import ContactMarks
@@ -138,7 +136,10 @@ class DragContacts(QObject):
         live, drag = self._live, self._drag
         if live is None or drag is None:
             return
-        pose = drag.pose() if self._rigid else np.eye(4)
+        try:
+            pose = drag.pose() if self._rigid else np.eye(4)
+        except Refusal:  # what is typed has no value yet
+            pose = None
         self.found = () if pose is None else live.contacts(pose)
         live.came_apart(self.found)
         self._mark()
@@ -220,8 +221,7 @@ class DragContacts(QObject):
         middle = dragged[0].bounds.mean(axis=0)
         reach = REACH * pixel_length(viewer.camera, middle, viewer.size)
         self._live = LiveContacts(standing, dragged, clearance, reach)
-        if self.mode != "show":
-            self._live.begin()
+        self._live.begin()
 
     def _part(self, key: str, mesh: DisplayMesh) -> Part:
         from ...model.proximity.parts import Part
