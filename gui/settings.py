@@ -106,7 +106,7 @@ class Settings:
 
     def choice(self, name: str, of: Sequence[str]) -> str:
         """One of several ways, the first where none has been chosen."""
-        value = self._store.value(f"view/{name}", of[0])
+        value = str(self._store.value(f"view/{name}", of[0]))
         return value if value in of else of[0]
 
     def set_choice(self, name: str, value: str) -> None:

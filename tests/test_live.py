@@ -37,17 +37,17 @@ def overlap(moving, standing, pose):
 
 
 def test_spheres_meet_where_their_middles_are_two_radii_apart():
-    one, other = part("one", sphere(10, segments=128)), part("other", sphere(10, segments=128).at(40, 0, 0))
+    one, other = part("one", sphere(10, segments=24)), part("other", sphere(10, segments=24).at(40, 0, 0))
     live = LiveContacts([one], [other], reach=15.0)
     (contact,) = live.contacts(at(-10, 0, 0))
-    assert contact.kind == "near" and contact.gap == pytest.approx(10.0, abs=0.02)
-    assert contact.points == pytest.approx(np.array([[10, 0, 0], [20, 0, 0]]), abs=0.02)
+    assert contact.kind == "near" and contact.gap == pytest.approx(10.0, abs=0.2)
+    assert contact.points == pytest.approx(np.array([[10, 0, 0], [20, 0, 0]]), abs=0.2)
     gone, stop = live.stopped(HERE, (-60.0, 0.0, 0.0))
-    assert gone == pytest.approx([-20.0, 0.0, 0.0], abs=0.02) and stop is not None
+    assert gone == pytest.approx([-20.0, 0.0, 0.0], abs=0.2) and stop is not None
     assert told(live.contacts(at(*gone))) == {"one": ("touches", 0.0)} and overlap(other, one, at(*gone)) < 1e-9
     # Askew: middles at (40, 12, 0) + t (-1, 0, 0), which are 20 apart where 40 - t is 16.
-    live = LiveContacts([one], [part("other", sphere(10, segments=128).at(40, 12, 0))])
-    assert live.stopped(HERE, (-60.0, 0.0, 0.0))[0][0] == pytest.approx(-24.0, abs=0.05)
+    live = LiveContacts([one], [part("other", sphere(10, segments=24).at(40, 12, 0))])
+    assert live.stopped(HERE, (-60.0, 0.0, 0.0))[0][0] == pytest.approx(-24.0, abs=0.3)
 
 
 def test_kinds_of_contact_by_distance_and_clearance():

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 from handle_hand import Hand
 from PySide6.QtCore import QPoint
+from replay import replayed
 
+from solidtree.model.document.table import same_document
 from solidtree.model.proximity.bodies import relation
 from solidtree.model.proximity.checks import Checks
 from solidtree.model.proximity.memo import body_of
@@ -115,10 +117,10 @@ def test_a_drag_stops_at_the_wall_in_one_step_that_replays(opened):
     assert driver.session.undo_label == "Move" and len(driver.session.log) == 1
     assert driver.node(PART).placement.matrix()[:, 3].tolist() == [10.0, -10.0, 0.0]
     assert between(driver, PART, "wall").kind == "touching" and between(driver, PART, "floor").kind == "touching"
-    (line,) = driver.session.log
+    same_document(replayed(driver.session.log, before), driver.document)
     driver.keys("Ctrl+Z", driver.window.viewport)
     assert driver.document is before
-    assert "20" in line and driver.window.settings.choice("contacts", ("show", "stop")) == "stop"
+    assert driver.window.settings.choice("contacts", ("show", "stop")) == "stop"
     # At once again, before the picture has followed: what it shows of the part is where that was.
     hand, place = hold(driver, "move x", (60.0, 0.0, 0.0))
     hand.release(place)

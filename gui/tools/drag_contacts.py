@@ -8,13 +8,13 @@ from weakref import WeakKeyDictionary
 
 from PySide6.QtCore import QObject, Signal
 
+from ...model.document.errors import Refusal
 from ...model.document.tree import homes
 from ...model.measuring.elements import short
 from .handle_drags import MoveDrag, TurnDrag
 
 if TYPE_CHECKING:
     from ...model.document.document import Document
-    from ...model.document.errors import Refusal
     from ...model.document.nodes import Node
     from ...model.proximity.live import Contact, LiveContacts
     from ...model.proximity.parts import Part
@@ -30,13 +30,13 @@ MODES: tuple[Mode, ...] = ("show", "stop", "slide", "off")
 
 REACH = 40.0  # logical pixels within which parts are told of
 AT_ONCE = 100_000  # triangles that are made ready while the pointer waits
+MOST_PLAIN = 2_000  # triangles of all parts where there is no compiled code
 MOST_WORDS = 3  # contacts that are named beside the pointer
 
 
 class DragContacts(QObject):
-    """Of one drag at a time. `mode_changed` tells of another choice; `ready` that what took long is there now."""
+    """Of one drag at a time. `ready` tells that what took long to make is there now."""
 
-    mode_changed = Signal()
     ready = Signal()
 
     def __init__(
@@ -66,7 +66,6 @@ class DragContacts(QObject):
     def set_mode(self, mode: Mode) -> None:
         self.mode = mode
         self._settings.set_choice("contacts", mode)
-        self.mode_changed.emit()
 
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.contact_marks import ContactMarks
@@ -137,7 +136,10 @@ class DragContacts(QObject):
         live, drag = self._live, self._drag
         if live is None or drag is None:
             return
-        pose = drag.pose() if self._rigid else np.eye(4)
+        try:
+            pose = drag.pose() if self._rigid else np.eye(4)
+        except Refusal:  # what is typed has no value yet
+            pose = None
         self.found = () if pose is None else live.contacts(pose)
         live.came_apart(self.found)
         self._mark()
@@ -159,6 +161,8 @@ class DragContacts(QObject):
 
     def _make(self) -> None:
         """Get the parts ready: at once, or where they are large in the background."""
+        from ...model.partition.native import available
+
         viewer, document, drag = self._viewer, self._document, self._drag
         if viewer is None or document is None:
             return
@@ -183,7 +187,9 @@ class DragContacts(QObject):
         def refused(refusal: Refusal) -> None:
             """There is nothing to refuse."""
 
-        if sum(len(part.triangles) for part in raw) > AT_ONCE:
+        if not available() and sum(len(part.triangles) for part in parts.values()) > MOST_PLAIN:
+            self._live = None  # it would hold the pointer up
+        elif sum(len(part.triangles) for part in raw) > AT_ONCE:
             self._live = None
             self._background.run("Getting ready for contacts", work, lambda _: use(), refused)
         else:
@@ -215,8 +221,7 @@ class DragContacts(QObject):
         middle = dragged[0].bounds.mean(axis=0)
         reach = REACH * pixel_length(viewer.camera, middle, viewer.size)
         self._live = LiveContacts(standing, dragged, clearance, reach)
-        if self.mode != "show":
-            self._live.begin()
+        self._live.begin()
 
     def _part(self, key: str, mesh: DisplayMesh) -> Part:
         from ...model.proximity.parts import Part
