@@ -1,4 +1,5 @@
-"""The tools for lines of sight: two clicks ask whether points see each other, one what is before and behind a face."""
+"""The tools for lines of sight: whether two points see each other, what is before and behind a face, what is seen of a
+part from here, and what of a face from a point."""
 
 from __future__ import annotations
 
@@ -12,9 +13,11 @@ from ...model.editing.session import Session
 from ..hidden_surfaces import HiddenSurfaces
 from ..view.viewport import Viewport
 from .click_tool import ClickTool
+from .visibility import SeenSurface
 
 if TYPE_CHECKING:
     from ...model.measuring.sight import SolidRays
+    from ...model.measuring.visibility import Eye
     from ...model.partition.rays import Hit
     from ...model.partition.sight import Sight
     from ...render.handles.sight_marks import SightMarks
@@ -22,7 +25,7 @@ if TYPE_CHECKING:
     from ...render.handles.snap_mark import SnapMark
     from ...render.viewer import Viewer
 
-Mode = Literal["points", "ray"]
+Mode = Literal["points", "ray", "part", "map"]
 Vector = tuple[float, float, float]
 
 WORDS = {
@@ -31,9 +34,19 @@ WORDS = {
 FIRST = {
     "points": "Click a point, then another one, to learn whether they see each other; Escape ends this",
     "ray": "Click a face to learn how far it is to what stands before it, and how thick the wall is; Escape ends this",
+    "part": "Click a part to learn how much of it is seen from here, and what hides the rest; Escape ends this",
+    "map": "Click the point to look from, or press Enter to look from here; then click a face; Escape ends this",
 }
-SECOND = "Click the point to look at; Escape takes the first one back"
-ANEW = {"points": "a click begins anew", "ray": "click another face"}
+SECOND = {
+    "points": "Click the point to look at; Escape takes the first one back",
+    "map": "Click the face to look at; Escape takes the point back",
+}
+ANEW = {
+    "points": "a click begins anew",
+    "ray": "click another face",
+    "part": "turn the view, or click another part",
+    "map": "click another face, or press Escape for another point",
+}
 SORTING = "The faces are being sorted …"
 UNSORTED = "The faces of this model could not be sorted; change it to try again"
 LIVE = 0.03  # seconds that an answer may take for the line to be judged while the pointer moves
@@ -65,6 +78,12 @@ class SightTool(ClickTool):
         """The answer about two points; None as long as there is none."""
         self.about: tuple[Hit | None, Hit | None] | None = None
         """The answer about a face: what stands before it, and what ends the wall below it."""
+        self.seen = SeenSurface(session, viewport, self)
+        """The answer about a part or a face that is looked at."""
+        self._looked_at = ""
+        self._eye: Eye | None = None
+        self.seen.said.connect(self._say_seen)
+        self.seen.rested.connect(self._judge)
         hidden_surfaces.changed.connect(self._sorted)
         viewport.displayed.connect(self._displayed)
 
@@ -105,11 +124,13 @@ class SightTool(ClickTool):
 
         super().attached(viewer)
         self._snapper, self._snap_mark, self._marks = Snapper(viewer), SnapMark(), SightMarks()
+        self.seen.attached(viewer)
         viewer.overlay.add(self._marks)
         viewer.overlay.add(self._snap_mark)
 
     def closing(self) -> None:
         self.end()
+        self.seen.closing()
         super().closing()
         self._snapper = self._snap_mark = self._marks = None
 
@@ -117,9 +138,14 @@ class SightTool(ClickTool):
         return self.active
 
     def key(self, event: QKeyEvent) -> bool:
-        if self.mode is None or event.key() != Qt.Key.Key_Escape:
+        if self.mode is None:
             return False
-        if self.points:
+        if self.mode == "map" and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._look_from(self.seen.eye())
+            return True
+        if event.key() != Qt.Key.Key_Escape:
+            return False
+        if self.points or self._eye is not None:
             self._forget()
             self.said.emit(FIRST[self.mode])
         else:
@@ -132,7 +158,7 @@ class SightTool(ClickTool):
             self._snap_mark.show(snap)
         if self.mode == "points" and len(self.points) == 1:
             self._judge(None if snap is None else snap.point)
-        elif not self.points and self.mode is not None:
+        elif not self.points and self._eye is None and self.mode is not None:
             self.said.emit(FIRST[self.mode] if snap is None else f"{WORDS[snap.kind]}. {FIRST[self.mode]}")
         self._draw()
 
@@ -140,7 +166,15 @@ class SightTool(ClickTool):
         snap = self._find(position)
         if snap is None:
             return
-        if self.mode == "ray":
+        if self.mode == "map" and self._eye is None:
+            from ...model.measuring.visibility import Eye
+
+            self._look_from(Eye(snap.point), snap.point)
+            return
+        if self.mode in ("part", "map"):
+            self.points = (*self.points[: self.mode == "map"], snap.point)
+            self._looked_at = str(snap.path[0])
+        elif self.mode == "ray":
             assert snap.direction is not None
             self._forget()
             self.points = (snap.point, snap.direction)
@@ -151,18 +185,29 @@ class SightTool(ClickTool):
             self.points = (snap.point,)
         self._judge()
 
+    def _look_from(self, eye: Eye | None, point: Vector | None = None) -> None:
+        """Of the visibility map: from a point that was clicked, or the camera's eye, which gets no mark."""
+        import numpy as np
+
+        self._forget()
+        self._eye, self.points = eye, () if point is None else (point,)
+        if self._marks is not None and point is not None:
+            self._marks.show((), [np.array(point)])
+        self.said.emit(SECOND["map"])
+        self._draw()
+
     def _displayed(self) -> None:
         if self.active:
             self._judge()
 
     def _sorted(self) -> None:
-        if self.active and self.points and self.sight is None and self.about is None:
+        if self.active and self.points and self.sight is None and self.about is None and self.seen.view is None:
             self._judge()
 
     def _find(self, position: QPointF) -> Snap | None:
         if self._snapper is None:
             return None
-        if self.mode == "points":
+        if self.mode == "points" or (self.mode == "map" and self._eye is None):
             return self._snapper.find(position.x(), position.y())
         pick = self._snapper.pick(position.x(), position.y())
         if pick is None:
@@ -195,11 +240,14 @@ class SightTool(ClickTool):
 
         if self.mode is None or not self.points:
             return
+        if self.mode in ("part", "map"):
+            self._judge_seen()
+            return
         pending = self.mode == "points" and len(self.points) == 1
         self.sight = self.about = None
         if pending and target is None:
             self._show_point()
-            self.said.emit(SECOND)
+            self.said.emit(SECOND["points"])
             return
         slow = pending and self._seconds > LIVE
         start = perf_counter()
@@ -211,6 +259,22 @@ class SightTool(ClickTool):
         if rays is not None:
             self._seconds = perf_counter() - start
         self._draw()
+
+    def _judge_seen(self) -> None:
+        eye = self.seen.eye() if self.mode == "part" else self._eye
+        if not self._looked_at or eye is None:
+            return
+        rays = self._rays()
+        if rays is None:
+            self.seen.forget()
+            self.said.emit(self._why_not())
+        else:
+            self.seen.ask(rays, self._looked_at, None if self.mode == "part" else self.points[-1], eye)
+        self._draw()
+
+    def _say_seen(self, words: str) -> None:
+        if self.mode is not None:
+            self.said.emit(f"{words}; {ANEW[self.mode]}" if self.seen.view is not None else words)
 
     def _show_point(self) -> None:
         import numpy as np
@@ -230,10 +294,10 @@ class SightTool(ClickTool):
             return
         if rays is None:
             self._marks.show([SightLine(start, end, "unknown")], [start, end])
-            self.said.emit(SECOND if pending else self._why_not())
+            self.said.emit(SECOND["points"] if pending else self._why_not())
             return
         sight = rays.sight(a, b)
-        after = SECOND if pending else ANEW["points"]
+        after = SECOND["points"] if pending else ANEW["points"]
         if not pending:
             self.sight = sight
         length, hit = short(sight.length), sight.obstacle
@@ -286,6 +350,8 @@ class SightTool(ClickTool):
 
     def _forget(self) -> None:
         self.points, self.sight, self.about = (), None, None
+        self._looked_at, self._eye = "", None
+        self.seen.forget()
         if self._marks is not None:
             self._marks.show(())
         self._draw()

@@ -107,6 +107,14 @@ class SolidRays:
         """See `part_view`."""
         return part_view(self.rays, self.meshes, solid_id, triangles, eye, texels)
 
+    def face_at(self, point: ArrayLike, solid_id: str = "") -> tuple[str, np.ndarray] | None:
+        """The solid's id and the triangles of the smooth face that a point (3,) is on; None where it is on none."""
+        for face in self.rays.at(np.asarray(point, float), FACE_REACH * self.rays.size)[1]:
+            mesh, triangle = self._mesh_of(int(face))
+            if solid_id in ("", solid_of(mesh)):
+                return solid_of(mesh), face_triangles(mesh, triangle)
+        return None
+
     def mesh(self, solid_id: str) -> DisplayMesh | None:
         """The solid's own; None where it is not among them."""
         return next((mesh for mesh in self.meshes if solid_of(mesh) == solid_id), None)
@@ -132,10 +140,6 @@ class SolidRays:
     def solids_at(self, faces: np.ndarray) -> np.ndarray:
         """(n,) the places of the meshes that faces (n,) of the tree are of, -1 for -1."""
         return np.where(faces >= 0, np.searchsorted(self._ends, faces, side="right"), -1)
-
-    def triangle(self, face: int) -> int:
-        """Which triangle of its mesh a face of the tree is."""
-        return self._mesh_of(face)[1]
 
     def _mesh_of(self, face: int) -> tuple[DisplayMesh, int]:
         number = int(np.searchsorted(self._ends, face, side="right"))
@@ -205,14 +209,10 @@ class Scenery:
     def map_of(self, eye: ArrayLike, point: ArrayLike, parallel: bool = False) -> NamedView:
         """What an eye (3,) sees of the smooth face at a point (3,) on it. Raises Refusal where there is none."""
         here = vector(point, "point on the face")
-        face = self._solids.rays.at(here, FACE_REACH * self._solids.rays.size)[1]
-        if not len(face):
+        face = self._solids.face_at(here)
+        if face is None:
             raise Refusal(f"no face is at {tuple(here.tolist())}")
-        path = self._solids.owner(int(face[0]))
-        mesh = self._solids.mesh(str(path[0]))
-        assert mesh is not None
-        triangles = face_triangles(mesh, self._solids.triangle(int(face[0])))
-        return self._view(str(path[0]), self._names[str(path[0])], triangles, eye, parallel)
+        return self._view(face[0], self._names[face[0]], face[1], eye, parallel)
 
     def _view(self, solid_id: str, part: str, triangles: np.ndarray, eye: ArrayLike, parallel: bool) -> NamedView:
         place = vector(eye, "eye")
