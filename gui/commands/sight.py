@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ...model.editing.commands import Command
 
 if TYPE_CHECKING:
-    from ..tools.sight import Mode
+    from ..tools.sight.words import Mode
     from ..window import MainWindow
 
 

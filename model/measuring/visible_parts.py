@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from ..partition.rays import Rays
 from ..solid.provenance import Path
-from .visibility import HIDDEN, SEEN, TEXELS, Eye, Visibility, visibility
+from .visibility import HIDDEN, SEEN, TEXELS, TURNED, Eye, Visibility, visibility
 
 if TYPE_CHECKING:
     from ..solid.display import DisplayMesh
@@ -101,7 +101,8 @@ def words_of(view: PartView, part: str, names: Mapping[str, str], place: str = "
         return f"All of {part} that is turned this way is seen from {place}"
     else:
         error = f" (± {_percent(max(found.error, 0.001))})"
-        start = f"{_percent(found.share)}{error} of {part} is seen from {place}"
+        away = " that is turned this way" if found.part(TURNED) > 0.0 else ""
+        start = f"{_percent(found.share)}{error} of {part}{away} is seen from {place}"
     told = [hider for hider in view.hiders if hider[1] >= LEAST]
     parts = [
         f"it hides {_percent(share)} itself" if solid_id == view.solid_id else

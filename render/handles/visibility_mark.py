@@ -53,13 +53,13 @@ class VisibilityMark:
     def show(self, found: Visibility | None, through: bool = False) -> None:
         """Paint the texels, or nothing. `through`: those that are hidden are seen past what stands before them."""
         self._legend = ()
-        area = 0.0 if found is None else found.area
         for state, actor in self._painted.items():
             texels = np.zeros((0, 3, 3)) if found is None else found.texels[found.state == state]
             _take(self._through if through and state == HIDDEN else actor, texels)
-            if found is not None and len(texels) and area > 0.0:
-                words = f"{NAMES[state]} {100.0 * found.part(state) / area:.1f} % of the area"
-                self._legend = (*self._legend, (state, words))
+            if found is not None and len(texels):
+                facing = found.part(SEEN) + found.part(HIDDEN)
+                share = "" if state == TURNED else f" {100.0 * found.part(state) / facing:.1f} %"
+                self._legend = (*self._legend, (state, NAMES[state] + share))
         if not through or found is None:
             self._through.VisibilityOff()
         else:

@@ -7,17 +7,17 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from ...model.editing.session import Session
-from ..background import Background
-from ..view.viewport import Viewport
+from ....model.editing.session import Session
+from ...background import Background
+from ...view.viewport import Viewport
 
 if TYPE_CHECKING:
-    from ...model.document.errors import Refusal
-    from ...model.measuring.sight import SolidRays
-    from ...model.measuring.visibility import Eye
-    from ...model.measuring.visible_parts import PartView
-    from ...render.handles.visibility_mark import VisibilityMark
-    from ...render.viewer import Viewer
+    from ....model.document.errors import Refusal
+    from ....model.measuring.sight import SolidRays
+    from ....model.measuring.visibility import Eye
+    from ....model.measuring.visible_parts import PartView
+    from ....render.handles.visibility_mark import VisibilityMark
+    from ....render.viewer import Viewer
 
     Vector = tuple[float, float, float]
     Question = tuple[SolidRays, str, Vector | None, Eye]
@@ -51,7 +51,7 @@ class SeenSurface(QObject):
         viewport.view_changed.connect(self._moved)
 
     def attached(self, viewer: Viewer) -> None:
-        from ...render.handles.visibility_mark import VisibilityMark
+        from ....render.handles.visibility_mark import VisibilityMark
 
         self._viewer, self._mark = viewer, VisibilityMark(viewer)
         viewer.overlay.add(self._mark)
@@ -63,7 +63,7 @@ class SeenSurface(QObject):
 
     def eye(self) -> Eye | None:
         """The camera's."""
-        from ...model.measuring.visibility import Eye
+        from ....model.measuring.visibility import Eye
 
         if self._viewer is None:
             return None
@@ -113,7 +113,7 @@ class SeenSurface(QObject):
         self.said.emit(str(refusal))
 
     def _words(self, view: PartView, solid_id: str, point: Vector | None) -> str:
-        from ...model.measuring.visible_parts import words_of
+        from ....model.measuring.visible_parts import words_of
 
         names = {root.id: root.label for root in self._session.view.roots}
         name = f"“{names.get(solid_id, solid_id)}”"
@@ -137,7 +137,7 @@ class SeenSurface(QObject):
 
 
 def _work(asked: Question) -> Callable[[], PartView | None]:
-    from ...model.measuring.visible_parts import part_triangles
+    from ....model.measuring.visible_parts import part_triangles
 
     rays, solid_id, point, eye = asked
 

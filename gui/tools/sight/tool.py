@@ -3,54 +3,34 @@ part from here, and what of a face from a point."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 
-from ...model.document.tree import walk
-from ...model.editing.session import Session
-from ..hidden_surfaces import HiddenSurfaces
-from ..view.viewport import Viewport
-from .click_tool import ClickTool
-from .visibility import SeenSurface
+from ....model.document.tree import walk
+from ....model.editing.session import Session
+from ...hidden_surfaces import HiddenSurfaces
+from ...view.viewport import Viewport
+from ..click_tool import ClickTool
+from .seen_surface import SeenSurface
+from .words import ANEW, FIRST, SECOND, WORDS, Mode
 
 if TYPE_CHECKING:
-    from ...model.measuring.sight import SolidRays
-    from ...model.measuring.visibility import Eye
-    from ...model.partition.rays import Hit
-    from ...model.partition.sight import Sight
-    from ...render.handles.sight_marks import SightMarks
-    from ...render.handles.snap import Snap, Snapper
-    from ...render.handles.snap_mark import SnapMark
-    from ...render.viewer import Viewer
+    from ....model.measuring.sight import SolidRays
+    from ....model.measuring.visibility import Eye
+    from ....model.partition.rays import Hit
+    from ....model.partition.sight import Sight
+    from ....render.handles.sight_marks import SightMarks
+    from ....render.handles.snap import Snap, Snapper
+    from ....render.handles.snap_mark import SnapMark
+    from ....render.viewer import Viewer
 
-Mode = Literal["points", "ray", "part", "map"]
 Vector = tuple[float, float, float]
 
-WORDS = {
-    "vertex": "Corner", "midpoint": "Middle", "centre": "Centre", "edge": "Edge", "face": "Face", "grid": "Ground",
-}  # fmt: skip
-FIRST = {
-    "points": "Click a point, then another one, to learn whether they see each other; Escape ends this",
-    "ray": "Click a face to learn how far it is to what stands before it, and how thick the wall is; Escape ends this",
-    "part": "Click a part to learn how much of it is seen from here, and what hides the rest; Escape ends this",
-    "map": "Click the point to look from, or press Enter to look from here; then click a face; Escape ends this",
-}
-SECOND = {
-    "points": "Click the point to look at; Escape takes the first one back",
-    "map": "Click the face to look at; Escape takes the point back",
-}
-ANEW = {
-    "points": "a click begins anew",
-    "ray": "click another face",
-    "part": "turn the view, or click another part",
-    "map": "click another face, or press Escape for another point",
-}
 SORTING = "The faces are being sorted …"
 UNSORTED = "The faces of this model could not be sorted; change it to try again"
 LIVE = 0.03  # seconds that an answer may take for the line to be judged while the pointer moves
-FAR = 0.15  # of the scene's size: how far a ray is drawn that meets nothing
 
 
 class SightTool(ClickTool):
@@ -118,9 +98,9 @@ class SightTool(ClickTool):
     # Events.
 
     def attached(self, viewer: Viewer) -> None:
-        from ...render.handles.sight_marks import SightMarks
-        from ...render.handles.snap import Snapper
-        from ...render.handles.snap_mark import SnapMark
+        from ....render.handles.sight_marks import SightMarks
+        from ....render.handles.snap import Snapper
+        from ....render.handles.snap_mark import SnapMark
 
         super().attached(viewer)
         self._snapper, self._snap_mark, self._marks = Snapper(viewer), SnapMark(), SightMarks()
@@ -167,12 +147,12 @@ class SightTool(ClickTool):
         if snap is None:
             return
         if self.mode == "map" and self._eye is None:
-            from ...model.measuring.visibility import Eye
+            from ....model.measuring.visibility import Eye
 
             self._look_from(Eye(snap.point), snap.point)
             return
         if self.mode in ("part", "map"):
-            self.points = (*self.points[: self.mode == "map"], snap.point)
+            self.points = (snap.point,)
             self._looked_at = str(snap.path[0])
         elif self.mode == "ray":
             assert snap.direction is not None
@@ -187,14 +167,11 @@ class SightTool(ClickTool):
 
     def _look_from(self, eye: Eye | None, point: Vector | None = None) -> None:
         """Of the visibility map: from a point that was clicked, or the camera's eye, which gets no mark."""
-        import numpy as np
-
         self._forget()
         self._eye, self.points = eye, () if point is None else (point,)
-        if self._marks is not None and point is not None:
-            self._marks.show((), [np.array(point)])
+        if point is not None:
+            self._show_point()
         self.said.emit(SECOND["map"])
-        self._draw()
 
     def _displayed(self) -> None:
         if self.active:
@@ -212,7 +189,7 @@ class SightTool(ClickTool):
         pick = self._snapper.pick(position.x(), position.y())
         if pick is None:
             return None
-        from ...render.handles.snap import Snap
+        from ....render.handles.snap import Snap
 
         return Snap("face", pick.point, pick.normal, pick.path)
 
@@ -220,7 +197,7 @@ class SightTool(ClickTool):
 
     def _rays(self) -> SolidRays | None:
         """Rays through what is shown; None while its faces are being sorted, or something moves."""
-        from ...model.measuring.sight import SolidRays
+        from ....model.measuring.sight import SolidRays
 
         if self._viewer is None or self._session.previewing:
             return None
@@ -284,61 +261,32 @@ class SightTool(ClickTool):
         self._draw()
 
     def _show_sight(self, rays: SolidRays | None, a: Vector, b: Vector, pending: bool) -> None:
-        import numpy as np
+        from .lines import show_sight, show_unknown
 
-        from ...model.measuring.elements import short
-        from ...render.handles.sight_marks import SightLine
-
-        start, end = np.array(a), np.array(b)
         if self._marks is None:
             return
         if rays is None:
-            self._marks.show([SightLine(start, end, "unknown")], [start, end])
+            show_unknown(self._marks, a, b)
             self.said.emit(SECOND["points"] if pending else self._why_not())
             return
         sight = rays.sight(a, b)
-        after = SECOND["points"] if pending else ANEW["points"]
         if not pending:
             self.sight = sight
-        length, hit = short(sight.length), sight.obstacle
-        if hit is None:
-            self._marks.show([SightLine(start, end, "clear", length)], [start, end])
-            self.said.emit(f"Clear: {length} mm; {after}")
-            return
-        name, middle, reach = self._name(rays, hit), np.array(hit.point), short(hit.distance)
-        lines = [SightLine(middle, end, "blocked", f"“{name}”")]
-        if hit.distance > 0.0:
-            lines.append(SightLine(start, middle, "clear", reach))
-        self._marks.show(lines, [start, middle, end], rays.outline(hit))
-        self.said.emit(f"“{name}” is in the way: {reach} of {length} mm are clear; {after}")
+        words = show_sight(self._marks, rays, sight, self._name)
+        self.said.emit(f"{words}; {SECOND['points'] if pending else ANEW['points']}")
 
     def _show_about(self, rays: SolidRays | None) -> None:
-        import numpy as np
-
-        from ...model.measuring.elements import short
-        from ...render.handles.sight_marks import SightLine
+        from .lines import show_about
 
         if self._marks is None:
             return
-        point, normal = np.array(self.points[0]), np.array(self.points[1])
+        point, normal = self.points
         if rays is None:
-            self._marks.show((), [point])
+            self._show_point()
             self.said.emit(self._why_not())
             return
         self.about = gap, wall = rays.about(point, normal)
-        dots, lines = [point], []
-        if gap is None:
-            lines.append(SightLine(point, point + FAR * rays.rays.size * normal, "clear"))
-            words = "Nothing stands before this face"
-        else:
-            dots.append(np.array(gap.point))
-            lines.append(SightLine(point, dots[-1], "clear", short(gap.distance)))
-            words = f"“{self._name(rays, gap)}” is {short(gap.distance)} mm before this face"
-        if wall is not None:
-            dots.append(np.array(wall.point))
-            lines.append(SightLine(point, dots[-1], "wall", short(wall.distance)))
-            words += f"; the wall is {short(wall.distance)} mm thick"
-        self._marks.show(lines, dots, None if gap is None else rays.outline(gap))
+        words = show_about(self._marks, rays, point, normal, gap, wall, self._name)
         self.said.emit(f"{words}; {ANEW['ray']}")
 
     def _why_not(self) -> str:
