@@ -45,6 +45,7 @@ class VisibilityMark:
             label.GetTextProperty().SetJustificationToLeft()
         self._legend: tuple[tuple[int, str], ...] = ()
         self.set_look(LIGHT)
+        self.show(None)
 
     @property
     def props(self) -> Sequence[vtkProp]:
