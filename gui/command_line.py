@@ -199,6 +199,8 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
         ("check", "check", "add_options", "check",
          "solids that overlap or come nearer to each other than a clearance, as JSON"),
         ("ray", "ray", "add_options", "ray", "the first face on a ray, or whether two points see each other, as JSON"),
+        ("sight", "sight", "add_options", "sight",
+         "whether two points see each other, or how much of a part or a face is seen from a point, as JSON"),
         ("section", "section", "add_options", "section",
          "the outlines in which a plane cuts the solids, as SVG or DXF"),
         ("faults", "faults", "add_options", "faults",

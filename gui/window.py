@@ -62,7 +62,7 @@ from .tools.handles import Handles
 from .tools.measure import MeasureTool
 from .tools.place_on_face import PlaceOnFace
 from .tools.section_tool import SectionTool
-from .tools.sight import SightTool
+from .tools.sight.tool import SightTool
 from .tools.tool_menu import SpaceBar
 from .tree.diagram import Diagram
 from .tree.model_panel import ModelPanel
