@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from ..document.errors import Refusal
 from .bodies import APART, OVERLAP, Body, overlap_of
-from .moved import IDENTITY, moved_body, relation_moved
-from .screws import Path
-from .sweeping import advance, closeness, outermost
+from .moving.moved import IDENTITY, moved_body, relation_moved
+from .moving.screws import Path
+from .moving.sweeping import advance, closeness, outermost
 
 Floats = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..document.errors import Refusal
+from ...document.errors import Refusal
 
 Floats = NDArray[np.float64]
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..document.errors import Refusal
-from .bodies import APART, TOUCHING, Body
+from ...document.errors import Refusal
+from ..bodies import APART, TOUCHING, Body
 from .moved import relation_moved
 from .screws import Path
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from .bodies import APART, MEETING, Body, Relation, _relation
+from ..bodies import APART, MEETING, Body, Relation, _relation
 
 Floats = NDArray[np.float64]
 
