@@ -31,13 +31,13 @@ def overlap(one: Node, other: Node, tolerance: float = 0.05) -> float:
     >>> overlap(box(10), box(10).at(8, 8))
     40.0
     """
-    bodies = _bodies(one, other, tolerance)
+    bodies = bodies_of(one, other, tolerance=tolerance)
     for body in bodies:
         if not body.closed:
             raise Refusal(f"“{body.name}” is not closed: it has no inside to share")
     from ..proximity.bodies import overlap_of
 
-    return float(overlap_of(*bodies).volume())
+    return float(overlap_of(bodies[0], bodies[1]).volume())
 
 
 def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
@@ -49,7 +49,8 @@ def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
     """
     from ..proximity.bodies import relation as relation_of
 
-    found = relation_of(*_bodies(one, other, tolerance))
+    first, second = bodies_of(one, other, tolerance=tolerance)
+    found = relation_of(first, second)
     assert found is not None
     return found
 
@@ -75,18 +76,19 @@ def clearances(
     return answer["pairs"]
 
 
-def _bodies(one: Node, other: Node, tolerance: float) -> tuple[Body, Body]:
+def bodies_of(*solids: Node, tolerance: float = 0.05) -> list[Body]:
+    """Evaluated solids. Raises Refusal where one has no surface."""
     from ..proximity.checking import body_of
 
-    results = evaluate(one, other, tolerance=tolerance).solids
-    if len(results) != 2:
-        raise Refusal("this is asked of two solids, and an outline is none: extrude or revolve it first")
-    first, second = (body_of(result) for result in results)
-    for body, result in zip((first, second), results, strict=True):
+    results = evaluate(*solids, tolerance=tolerance).solids
+    if len(results) != len(solids):
+        raise Refusal("this is asked of solids, and an outline is none: extrude or revolve it first")
+    bodies = [body_of(result) for result in results]
+    for body, result in zip(bodies, results, strict=True):
         if body.empty:
             reason = next((f": {message.message}" for message in result.messages if message.error), "")
             raise Refusal(f"“{body.name}” has no surface to measure from{reason}")
-    return first, second
+    return bodies
 
 
 __all__ = ["clearances", "distance", "overlap", "relation"]

@@ -7,6 +7,7 @@ each other is not asked again.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -64,6 +65,42 @@ class Played:
         """(n,) which parts are not in one place all the time."""
         still = np.abs(self.moves - self.moves[:1]).max(axis=(0, 2, 3), initial=0.0) <= STILL
         return ~still | self.recut.any(axis=0)
+
+    def table(self, contacts: bool = True) -> dict[str, Any]:
+        """Plain values, as JSON has them; without `contacts` the steps are left out."""
+        motion, first = self.motion, self.first
+        told: dict[str, Any] = {
+            "motion": motion.name,
+            "parameter": motion.parameter,
+            "start": motion.start,
+            "end": motion.end,
+            "seconds": motion.seconds,
+            "parts": len(self.ids),
+            "moving": [name for name, moves in zip(self.names, self.moving.tolist(), strict=True) if moves],
+            "first": None if first is None else {
+                "time": first.time,
+                "value": motion.value(first.time / motion.seconds),
+                "a": self.names[first.one],
+                "b": self.names[first.other],
+                "place": first.place.tolist(),
+            },
+        }  # fmt: skip
+        if contacts:
+            told["steps"] = [
+                {"time": time, "value": motion.value(k / motion.steps), "contacts": list(map(self._row, listed))}
+                for k, (time, listed) in enumerate(zip(self.times.tolist(), self.touches, strict=True))
+            ]
+        return told
+
+    def _row(self, touch: Touch) -> dict[str, Any]:
+        return {
+            "a": self.names[touch.one],
+            "b": self.names[touch.other],
+            "relation": touch.kind,
+            "gap": touch.gap,
+            "overlap_volume": touch.overlap,
+            "points": None if touch.points is None else touch.points.tolist(),
+        }
 
     def move(self, share: float) -> Floats:
         """(n, 4, 4) between the steps, at a share of the time, 0 to 1."""
