@@ -40,6 +40,9 @@ class Jobs(QObject):
     """A NodeFaults (model/checking/document_faults.py) for each node that `find_faults` was asked for last; or None,
     and why there are none."""
     faults_progress = Signal(int, int, str)
+    played = Signal(object, str)
+    """The Played (model/proximity/moving/playing.py) that `play` was asked for last; or None, and why there is none."""
+    playing_progress = Signal(int, int, str)
     _told = Signal(object)
 
     def __init__(self, make_lane: Callable[[Callable[[LaneMessage], None]], Lane], parent: QObject) -> None:
@@ -53,6 +56,7 @@ class Jobs(QObject):
         self._ahead = False  # nobody waits for the partition
         self._drawing: int | None = None
         self._finding: int | None = None
+        self._playing: int | None = None
         self.lane: Lane | None = None
 
     @property
@@ -127,18 +131,34 @@ class Jobs(QObject):
             self._finding = None
             self.lane.stop_finding()
 
+    def play(self, document: Document, motion: str, tolerance: float, between: bool = False) -> None:
+        """Look at a motion step by step, instead of the one asked for before; `played` brings it."""
+        self._playing = self._started().play(document, motion, tolerance, between)
+
+    def stop_playing(self) -> None:
+        """Give up looking at a motion; `played` does not come."""
+        if self._playing is not None and self.lane is not None:
+            self._playing = None
+            self.lane.stop_playing()
+
+    @property
+    def playing(self) -> bool:
+        return self._playing is not None
+
     @property
     def finding(self) -> bool:
         return self._finding is not None
 
     def cancel(self) -> None:
         """Give up all of it."""
-        if self.lane is not None and (self.at_work or self._drawing is not None or self.finding):
+        if self.lane is not None and (self.at_work or self._drawing is not None or self.finding or self.playing):
             self.lane.cancel()
         if self._drawing is not None:
             self._end_drawing("it was cancelled")
         if self._finding is not None:
             self._end_finding(None, "it was cancelled")
+        if self._playing is not None:
+            self._end_playing(None, "it was cancelled")
         if self._exports:
             self._exports.clear()
             self.notice.emit("The export was cancelled; no file was written")
@@ -160,7 +180,7 @@ class Jobs(QObject):
         return self.lane
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.worker.messages import Died, Drawn, Exported, FaultsFound, Partitioned, Progress
+        from ..model.worker.messages import Died, Drawn, Exported, FaultsFound, MotionPlayed, Partitioned, Progress
 
         if self._closed:
             return
@@ -176,11 +196,15 @@ class Jobs(QObject):
                 self.drawn.emit(page, messages, fault or "")
             case FaultsFound(request, found, fault) if request == self._finding:
                 self._end_finding(found, fault or "")
+            case MotionPlayed(request, played, fault) if request == self._playing:
+                self._end_playing(played, fault or "")
             case Progress(request, done, total, label):
                 if request == self._drawing:
                     self.drawing_progress.emit(done, total, label)
                 elif request == self._finding:
                     self.faults_progress.emit(done, total, label)
+                elif request == self._playing:
+                    self.playing_progress.emit(done, total, label)
                 elif request in self._exports:
                     self.progress.emit(done, total, f"Exporting {label}")
                 elif request == self._partition and not self._exports:
@@ -195,6 +219,13 @@ class Jobs(QObject):
                 self._end_drawing(f"{reason}, twice")
             case Died(request, reason, given_up) if given_up and request is not None and request == self._finding:
                 self._end_finding(None, f"{reason}, twice")
+
+            case Died(request, reason, given_up) if given_up and request is not None and request == self._playing:
+                self._end_playing(None, f"{reason}, twice")
+
+    def _end_playing(self, played: object, why: str) -> None:
+        self._playing = None
+        self.played.emit(played, why)
 
     def _end_finding(self, found: object, why: str) -> None:
         self._finding = None

@@ -67,8 +67,8 @@ def set_in_motion(
     """Let nodes go by `by`, millimetres in their parent's axes, and turn by `turn`, such as ("z", 90), about an axis
     through their own place, while the motion goes on.
 
-    A motion that the document has not is made, with a parameter for it. The placements get expressions of the parameter,
-    which are 0 where the motion starts now and all of it where it ends.
+    A motion that the document has not is made, with a parameter for it. The placements get expressions of the
+    parameter, which are 0 where the motion starts now and all of it where it ends.
     """
     document = _with_motion(document, name)
     motion = _called(document, name)

@@ -8,7 +8,17 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from .job import Job
-from .messages import Drawn, Evaluated, Examined, Exported, FaultsFound, LaneMessage, Partitioned, Progress
+from .messages import (
+    Drawn,
+    Evaluated,
+    Examined,
+    Exported,
+    FaultsFound,
+    LaneMessage,
+    MotionPlayed,
+    Partitioned,
+    Progress,
+)
 from .shown import Message, Part, Pictures, Shown
 
 if TYPE_CHECKING:
@@ -60,6 +70,8 @@ class Answers:
                 self._tell(Partitioned(number, tree, seconds))
             case ("faults", number, found):
                 self._tell(FaultsFound(number, found))
+            case ("played", number, played):
+                self._tell(MotionPlayed(number, played))
             case ("refused", _, reason):
                 self.refuse(job, reason)
             case ("superseded" | "prepared", _):
@@ -78,6 +90,8 @@ class Answers:
             self._tell(Partitioned(job.number, None, 0.0, reason))
         elif job.word == "faults":
             self._tell(FaultsFound(job.number, None, reason))
+        elif job.word == "play":
+            self._tell(MotionPlayed(job.number, None, reason))
         elif job.word == "evaluate":
             self._tell(Evaluated(job.number, Shown({}, {}, (Message("", "", reason, True),)), 0.0, 0))
 

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ..checking.document_faults import NodeFaults
     from ..drafting.page import Page
     from ..partition.tree import Tree
+    from ..proximity.moving.playing import Played
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +88,15 @@ class FaultsFound:
 
 
 @dataclass(frozen=True, slots=True)
+class MotionPlayed:
+    """The answer to `Lane.play`: the motion step by step; or `fault`, why there is none."""
+
+    request: int
+    played: Played | None
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Cancelled:
     """The request was given up because the user asked for it."""
 
@@ -103,5 +113,15 @@ class Died:
 
 
 LaneMessage = (
-    Started | Progress | Evaluated | Examined | Exported | Partitioned | Drawn | FaultsFound | Cancelled | Died
+    Started
+    | Progress
+    | Evaluated
+    | Examined
+    | Exported
+    | Partitioned
+    | Drawn
+    | FaultsFound
+    | MotionPlayed
+    | Cancelled
+    | Died
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .job import Job
 
-ORDER = ("evaluate", "draw", "partition", "faults", "examine", "prepare")
+ORDER = ("evaluate", "draw", "partition", "faults", "play", "examine", "prepare")
 """Of those that wait, the first of these words is done next."""
 
 
@@ -31,14 +31,7 @@ class Waiting:
         """Take out the request that is to be done next."""
         if "evaluate" not in self._newest and self._exports:
             return self._exports.pop(0)
-        word = next(
-            (
-                word
-                for word in ("evaluate", "draw", "partition", "faults", "examine", "prepare")
-                if word in self._newest
-            ),
-            "",
-        )
+        word = next((word for word in ORDER if word in self._newest), "")
         return self._newest.pop(word, None)
 
     def clear(self) -> None:
@@ -54,7 +47,7 @@ class Waiting:
         """Whether something newer takes the place of what is at work."""
         if job.word == "partition":
             return "partition" in self._newest
-        if job.word in ("draw", "faults"):
+        if job.word in ("draw", "faults", "play"):
             return not job.path and (job.word in self._newest or job.number <= self._unwanted.get(job.word, 0))
         newer = self._newest.get("evaluate")
         return newer is not None and job.word != "export" and (newer.supersedes or job.supersedes)
@@ -62,4 +55,6 @@ class Waiting:
     @property
     def urgent(self) -> bool:
         """Whether somebody waits for an answer, and not just for what is got ready or looked at beside."""
-        return bool(self._exports) or any(word in self._newest for word in ("evaluate", "partition", "draw", "faults"))
+        return bool(self._exports) or any(
+            word in self._newest for word in ("evaluate", "partition", "draw", "faults", "play")
+        )

@@ -195,6 +195,17 @@ class _Worker:
         )
         return "faults", number, found
 
+    def _play(
+        self, number: int, table: dict[str, Any], tolerance: float, motion: str, between: bool
+    ) -> tuple[Any, ...]:
+        from ..proximity.moving.playing import play
+
+        return (
+            "played",
+            number,
+            play(from_table(table), motion, tolerance, _Progress(self._connection, number, 1).tell, between),
+        )
+
 
 class _Progress:
     """Reports now and then, and stops when a newer request waits."""
