@@ -29,8 +29,8 @@ STILL = 1e-13
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touch:
-    """Two parts by number, and how the first stands to the second (see `bodies.Relation`); `asked` is the clearance in
-    mm that it is too near for, 0 where nothing is asked."""
+    """Two parts by number, and how the first stands to the second (see `bodies.Relation`); `place` (3,) is
+    where, of overlaps roughly; `asked` the clearance in mm that it is too near for, 0 where nothing is asked."""
 
     one: int
     other: int
@@ -38,6 +38,7 @@ class Touch:
     gap: float
     points: Floats | None
     overlap: float | None
+    place: Floats
     asked: float = 0.0
 
 
@@ -199,7 +200,7 @@ class _Look:
         boxes = boxes_of(self._parts.bodies, standing)
         found = []
         for one, other in pairs_near(boxes, 0.5 * self._most * (1.0 + 1e-9) + self._margin(boxes)):
-            touch = self._touch(one, other, standing)
+            touch = self._touch(one, other, standing, boxes)
             if touch is not None:
                 found.append(touch)
         found.sort(key=lambda touch: (touch.gap, -(touch.overlap or 0.0), touch.one, touch.other))
@@ -209,7 +210,7 @@ class _Look:
     def _margin(boxes: Floats) -> float:
         return 1e-11 * float(np.nanmax(np.abs(boxes), initial=1.0))
 
-    def _touch(self, one: int, other: int, standing: Standing) -> Touch | None:
+    def _touch(self, one: int, other: int, standing: Standing, boxes: Floats) -> Touch | None:
         own = self._own.get((one, other))
         asked = self._clearance if own is None else own.clearance
         asked = self._clearance if asked is None else asked
@@ -219,9 +220,12 @@ class _Look:
         if relation is None or (touching and relation.kind == TOUCHING):
             return None
         points = relation.points
-        if points is not None:
+        if points is None:
+            place = 0.5 * (boxes[[one, other], 0].max(axis=0) + boxes[[one, other], 1].min(axis=0))
+        else:
             points = mapped(standing.poses[one], points)
-        return Touch(one, other, relation.kind, relation.gap, points, relation.overlap, limit)
+            place = points.mean(axis=0)
+        return Touch(one, other, relation.kind, relation.gap, points, relation.overlap, place, limit)
 
     def _relation(self, one: int, other: int, standing: Standing, limit: float) -> Relation | None:
         """In the axes of the first one's body."""
