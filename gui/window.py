@@ -37,6 +37,7 @@ from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
 from .mesh.panel import MeshPanel
+from .motion.panel import MotionPanel
 from .normals.needle_view import NeedleView
 from .palette.palette import Palette
 from .panels.figures import FigureUse
@@ -194,6 +195,7 @@ class MainWindow(QMainWindow):
         self.pipeline = PipelinePanel(self)
         self.mesh = MeshPanel(self)
         self.faults = FaultsPanel(self)
+        self.motion = MotionPanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -220,6 +222,7 @@ class MainWindow(QMainWindow):
             bottom={
                 "Problems": self.problems,
                 "Faults": self.faults,
+                "Motion": self.motion,
                 "Sections": self.sections,
                 "Script": self.script,
                 "Measure": self.measurements,
@@ -249,6 +252,7 @@ class MainWindow(QMainWindow):
             self.surfaces,
             self.mesh,
             self.faults,
+            self.motion,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)
@@ -306,6 +310,9 @@ class MainWindow(QMainWindow):
 
     def show_faults(self) -> None:
         raise_dock(self, "Faults", FAULTS_HEIGHT)
+
+    def show_motion(self) -> None:
+        raise_dock(self, "Motion", FAULTS_HEIGHT)
 
     def count_problems(self, count: int) -> None:
         self.docks["Problems"].setWindowTitle(f"Problems ({count})" if count else "Problems")
