@@ -156,8 +156,7 @@ class Viewer:
 
     def set_touched(self, solid_ids: Iterable[str]) -> None:
         """See `Scene.set_touched`."""
-        if frozenset(solid_ids) != self.scene.touched:
-            self.scene.set_touched(solid_ids)
+        self.scene.set_touched(solid_ids)
         self.needs_render = True
 
     def set_sections(self, sections: "Iterable[Section]", dragged: bool = False) -> None:

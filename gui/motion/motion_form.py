@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
 
 from ..icons import icon
 from ..panels.number_field import NumberField, Steps
@@ -18,9 +18,10 @@ if TYPE_CHECKING:
 FIELDS = {
     "start": ("from", "The parameter where the motion begins", Steps(1.0, 0.1, 10.0)),
     "end": ("to", "The parameter where the motion ends", Steps(1.0, 0.1, 10.0)),
-    "seconds": ("in s", "How long the motion lasts, in seconds", Steps(1.0, 0.1, 10.0, 0.0, True)),
+    "seconds": ("seconds", "How long the motion lasts, in seconds", Steps(1.0, 0.1, 10.0, 0.0, True)),
     "steps": ("steps", "In how many steps contacts are looked for", Steps(1.0, 1.0, 10.0, 1.0)),
 }
+BETWEEN_TIP = "Follow all that comes near between the steps, too: slower, and nothing quick is jumped over"
 AXES = ("x", "y", "z")
 
 
@@ -57,6 +58,8 @@ class MotionForm(QWidget):
         self.parameter.setMinimumContentsLength(6)
         self.parameter.activated.connect(lambda at: self.set_asked.emit("parameter", self.parameter.itemText(at)))
         self.fields = {name: self._field(name, tip, steps) for name, (_, tip, steps) in FIELDS.items()}
+        self.between = QCheckBox("between, too", self)
+        self.between.setToolTip(BETWEEN_TIP)
         self.by = [self._moving_field(f"Millimetres along {axis}") for axis in AXES]
         self.axis = QComboBox(self)
         self.axis.addItems(AXES)
@@ -82,7 +85,8 @@ class MotionForm(QWidget):
         for place, name in enumerate(("seconds", "steps")):
             grid.addWidget(_muted(FIELDS[name][0], self), 2, 2 * place)
             grid.addWidget(self.fields[name], 2, 2 * place + 1)
-        self.moving_words = _muted("Selected nodes move by x, y, z mm and turn about", self)
+        grid.addWidget(self.between, 2, 4, 1, 3)
+        self.moving_words = _muted("The selected nodes go by x, y, z in mm and turn about", self)
         self.moving_words.setContentsMargins(0, 6, 0, 0)
         grid.addWidget(self.moving_words, 3, 0, 1, 6)
         moving = QHBoxLayout()
@@ -95,15 +99,14 @@ class MotionForm(QWidget):
         moving.addWidget(QLabel("°", self))
         moving.addWidget(self.set_in)
         grid.addLayout(moving, 4, 0, 1, 6)
-        for column in (1, 3, 5):
-            grid.setColumnStretch(column, 1)
+        grid.setColumnStretch(6, 1)
         grid.setRowStretch(5, 1)
 
     def show_motion(self, document: Document, motion: Motion | None) -> None:
         """The motions of a document, and the values of one."""
         _fill(self.names, [one.name for one in document.motions], "" if motion is None else motion.name)
         _fill(self.parameter, [one.name for one in document.parameters], "" if motion is None else motion.parameter)
-        for widget in (self.names, self.delete, self.parameter, *self.fields.values()):
+        for widget in (self.names, self.delete, self.parameter, self.between, *self.fields.values()):
             widget.setEnabled(motion is not None)
         for name, field in self.fields.items():
             field.set_value(None if motion is None else float(getattr(motion, name)))
@@ -122,7 +125,7 @@ class MotionForm(QWidget):
         field = NumberField(steps, self)
         field.setAccessibleName(tip)
         field.setToolTip(tip)
-        field.setMaximumWidth(80)
+        field.setMaximumWidth(56)
         field.typed.connect(lambda text: self.set_asked.emit(name, text))
         field.stepping.connect(lambda value: self.set_asked.emit(name, value))
         return field
@@ -132,7 +135,7 @@ class MotionForm(QWidget):
         field.setAccessibleName(tip)
         field.setToolTip(f"{tip}, over the whole motion")
         field.setPlaceholderText("0")
-        field.setMaximumWidth(52)
+        field.setMaximumWidth(46)
         return field
 
 

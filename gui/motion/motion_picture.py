@@ -8,7 +8,6 @@ import numpy as np
 from PySide6.QtCore import QObject, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 
-from ...model.proximity.bodies import APART
 from ..tools.tool import Tool
 
 if TYPE_CHECKING:
@@ -51,7 +50,8 @@ class MotionPicture(Tool):
         return True
 
     def show(self, played: Played, share: float, listed: tuple[Touch, ...], chosen: Touch | None = None) -> None:
-        """The parts at a share of the time with the contacts `listed` there; of a `chosen` one alone what it is."""
+        """The parts at a share of the time, coloured where contacts `listed` there are new; a `chosen` one is marked,
+        and all but its parts are faint."""
         viewer = self._viewer
         if viewer is None:
             return
@@ -60,10 +60,8 @@ class MotionPicture(Tool):
             moves = played.move(share)
             moving = np.flatnonzero(played.moving)
             viewer.set_moves({played.ids[part]: moves[part] for part in moving.tolist()})
-        seen = (chosen,) if chosen is not None else listed
-        viewer.set_touched(
-            played.ids[part] for touch in seen if touch.kind != APART for part in (touch.one, touch.other)
-        )
+        lit = [] if chosen is not None else [touch for touch in listed if played.is_new(touch)]
+        viewer.set_touched(played.ids[part] for touch in lit for part in (touch.one, touch.other))
         pair = () if chosen is None else (played.ids[chosen.one], played.ids[chosen.other])
         viewer.set_faded(key for key in viewer.scene.meshes if pair and key not in pair)
         self._mark(listed, chosen)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
-    QCheckBox,
     QHBoxLayout,
     QLabel,
     QProgressBar,
@@ -22,9 +21,9 @@ from .play_bar import PlayBar
 
 EMPTY = (
     "There is no motion yet. A motion lets a parameter go from one value to another; solids whose place or size "
-    "depends on it move. Add one, select what shall move and set it in motion, or write the parameter in any number field."
+    "depends on it move. Select what shall move and set it in motion, or add a motion and write its parameter in any "
+    "number field."
 )
-BETWEEN_TIP = "Follow everything that comes near between the steps, too: slower, and nothing quick is jumped over"
 
 
 class MotionPage(QWidget):
@@ -32,7 +31,6 @@ class MotionPage(QWidget):
 
     cancel_asked = Signal()
     first_asked = Signal()
-    between_asked = Signal(bool)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -44,23 +42,24 @@ class MotionPage(QWidget):
         self.empty.setWordWrap(True)
         self.empty.setContentsMargins(12, 8, 12, 8)
         self.empty.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.time = QLabel(self)
+        self.time.setProperty("muted", True)
+        self.time.setMinimumWidth(self.time.fontMetrics().horizontalAdvance("00.00 s, tt = 0.000"))
+        self.time.setAccessibleName("Time")
         self.words = QLabel(self)
         self.words.setWordWrap(True)
         self.words.setTextFormat(Qt.TextFormat.PlainText)
         self.words.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
-        self.first = QPushButton(icon("contact_next"), "Go there", self)
+        self.first = QPushButton(icon("contact_next"), "Show", self)
         self.first.setFlat(True)
         self.first.setToolTip("Show the moment of the first contact")
         self.first.clicked.connect(self.first_asked)
-        self.between = QCheckBox("Between steps", self)
-        self.between.setToolTip(BETWEEN_TIP)
-        self.between.toggled.connect(self.between_asked)
         head = QHBoxLayout()
         head.setContentsMargins(10, 0, 8, 2)
         head.setSpacing(8)
+        head.addWidget(self.time)
         head.addWidget(self.words, 1)
         head.addWidget(self.first)
-        head.addWidget(self.between)
         self.working = QWidget(self)
         self.doing = QLabel(self.working)
         self.doing.setProperty("muted", True)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QTimer, Signal
 from PySide6.QtWidgets import QVBoxLayout, QWidget
 
 from ...model.document.errors import Refusal
-from ...model.document.tree import unique_name
 from ..panels.property_edit import sentence
 from ..status import figure
+from .motion_edits import MotionEdits
 from .player import Player
 
 if TYPE_CHECKING:
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
     from .page import MotionPage
 
 SOON = 300  # milliseconds of rest after which a changed document is looked at again
-FIELDS_OF_WHOLES = ("steps",)
 
 
 class MotionPanel(QWidget):
@@ -41,6 +40,8 @@ class MotionPanel(QWidget):
         self.page: MotionPage | None = None
         self.picture: MotionPicture | None = None
         self.player = Player(self)
+        self.edits = MotionEdits(window, self)
+        self.edits.refused.connect(self.refused)
         self.played: Played | None = None
         self.name = ""
         self._of: tuple[Document, str, bool] | None = None
@@ -64,7 +65,7 @@ class MotionPanel(QWidget):
         self.in_front = seen
         if seen:
             self._make()
-            self._fill()
+            self.fill()
             self._look()
         else:
             self._soon.stop()
@@ -85,7 +86,7 @@ class MotionPanel(QWidget):
             self.rest()
             self.played, self._of = None, None
         if self.in_front and before.document is not after.document:
-            self._fill()
+            self.fill()
             self._soon.start()
 
     def document_opened(self) -> None:
@@ -93,7 +94,7 @@ class MotionPanel(QWidget):
         self.rest()
         self.played, self._of, self.name = None, None, ""
         if self.in_front:
-            self._fill()
+            self.fill()
             self._soon.start()
 
     @property
@@ -113,12 +114,12 @@ class MotionPanel(QWidget):
         self.picture = MotionPicture(self._window, self)
         self.page = page = MotionPage(self)
         form, bar = page.form, page.bar
-        form.chosen.connect(self._choose)
-        form.added.connect(self.add)
-        form.renamed.connect(self._rename)
-        form.deleted.connect(self._delete)
-        form.set_asked.connect(self._set)
-        form.moving_asked.connect(self._set_in_motion)
+        form.chosen.connect(self.choose)
+        form.added.connect(self.edits.add)
+        form.renamed.connect(self.edits.rename)
+        form.deleted.connect(self.edits.delete)
+        form.set_asked.connect(self.edits.set_value)
+        form.moving_asked.connect(self.edits.set_in_motion)
         form.show_selection(len(self._window.session.selection))
         bar.stepped.connect(self.go)
         bar.toggled.connect(self.toggle)
@@ -128,13 +129,13 @@ class MotionPanel(QWidget):
         page.table.zoomed.connect(self.picture.fly)
         page.cancel_asked.connect(self._cancel)
         page.first_asked.connect(self._go_first)
-        page.between_asked.connect(lambda _: self._look())
+        form.between.toggled.connect(self._look)
         self.picture.left.connect(self._leave)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.addWidget(page)
 
-    def _fill(self) -> None:
+    def fill(self) -> None:
         """Show what the document has."""
         page, motion = self.page, self.motion
         if page is None:
@@ -146,21 +147,23 @@ class MotionPanel(QWidget):
         if motion is not None:
             self.player.seconds = motion.seconds
             page.bar.set_steps(motion.steps)
-            page.bar.show_step(round(self.player.share * motion.steps), *self._moment(motion))
+            self._show_time(motion, round(self.player.share * motion.steps))
         self._tell()
         self._show_state()
         self.listed.emit()
 
-    def _moment(self, motion: Motion) -> tuple[float, str]:
-        share = self.player.share
-        return share * motion.seconds, f"{motion.parameter} = {figure(motion.value(share), 4)}"
+    def _show_time(self, motion: Motion, step: int) -> None:
+        if self.page is not None:
+            share = self.player.share
+            value = figure(motion.value(share), 4)
+            self.page.bar.show_step(step)
+            self.page.time.setText(f"{share * motion.seconds:.2f} s, {motion.parameter} = {value}")
 
     def _tell(self) -> None:
         """What meets first."""
         page, played = self.page, self.played
         if page is None:
             return
-        page.between.setEnabled(self.motion is not None)
         if played is None:
             page.say("" if self._of is not None else "Contacts are not looked for yet.")
             return
@@ -192,7 +195,7 @@ class MotionPanel(QWidget):
         if session.previewing:
             self._soon.start()
             return
-        asked = (session.document, motion.name, page.between.isChecked())
+        asked = (session.document, motion.name, page.form.between.isChecked())
         if self._of is not None and self._of[0] is asked[0] and self._of[1:] == asked[1:]:
             return
         self.played, self._of = None, asked
@@ -271,10 +274,10 @@ class MotionPanel(QWidget):
         if page is None or motion is None or not self.in_front:
             return
         step = int(share * motion.steps + 1e-9)
-        page.bar.show_step(step, *self._moment(motion))
+        self._show_time(motion, step)
         if played is None or self.picture is None:
             return
-        listed = played.touches[step]
+        listed = played.listed(share)
         page.table.show_touches(played, listed)
         if played.recut.any():
             self._preview(share)
@@ -308,74 +311,11 @@ class MotionPanel(QWidget):
         else:
             self.rest()
 
-    # Changes of the document.
-
-    def add(self) -> None:
-        """A motion of the first parameter, or of one that is made for it."""
-        document = self._window.session.document
-        name = unique_name("Motion", [one.name for one in document.motions])
-        values: dict[str, Any] = {}
-        parameter = "t"
-        for one in document.parameters:
-            if isinstance(one.value, float) and not one.choices:
-                start = one.value if one.minimum is None else one.minimum
-                end = start + 1.0 if one.maximum is None else one.maximum
-                parameter, values = one.name, {"start": start, "end": end}
-                break
-        if self._do("add_motion", name, parameter, label="Add motion", **values):
-            self._choose(name)
-
-    def _choose(self, name: str) -> None:
+    def choose(self, name: str) -> None:
+        """Play another motion."""
         if name != self.name:
             self.rest()
-            self.player.go(0.0)
+            self.player.share = 0.0
             self.name = name
-            self._fill()
+            self.fill()
             self._look()
-
-    def _rename(self, name: str) -> None:
-        motion = self.motion
-        if motion is not None and name and name != motion.name and self.page is not None:
-            if name in [one.name for one in self._window.session.document.motions]:
-                return  # it is chosen
-            self.name = name
-            if not self._do("rename_motion", motion.name, name, label="Rename motion"):
-                self.name = motion.name
-            self._fill()
-
-    def _delete(self) -> None:
-        if self.motion is not None:
-            self._do("delete_motion", self.motion.name, label="Delete motion")
-
-    def _set(self, field: str, value: object) -> None:
-        motion = self.motion
-        if motion is None:
-            return
-        if field in FIELDS_OF_WHOLES:
-            try:
-                value = round(float(str(value)))
-            except (ValueError, OverflowError):
-                self.refused.emit("A motion has a whole number of steps")
-                self._fill()
-                return
-        self._do("set_motion", motion.name, label=f"Set {field} of motion", **{field: value})
-        self._fill()
-
-    def _set_in_motion(self, by: tuple[Any, ...], axis: str, degrees: object) -> None:
-        motion, session = self.motion, self._window.session
-        turn = None if degrees in (0.0, "0") else (axis, degrees)
-        name = unique_name("Motion", ()) if motion is None else motion.name
-        self._do(
-            "set_in_motion", list(session.selection), name, by, turn,
-            label="Set in motion", select=session.selection,
-        )  # fmt: skip
-
-    def _do(self, name: str, *arguments: Any, **more: Any) -> bool:
-        self.rest()
-        try:
-            self._window.session.do(name, *arguments, **more)
-        except Refusal as refusal:
-            self.refused.emit(sentence(refusal))
-            return False
-        self.refused.emit("")
-        return True

@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QToolButton, QWidget
 
 from ..icons import icon
 from ..partition.order_bar import StepSlider
@@ -27,10 +27,6 @@ class PlayBar(QWidget):
         self.slider.setAccessibleName("Step of the motion")
         self.slider.setToolTip("Steps of the motion; arrow keys go one further, Space plays")
         self.slider.valueChanged.connect(self.stepped)
-        self.time = QLabel(self)
-        self.time.setAlignment(Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
-        self.time.setMinimumWidth(self.time.fontMetrics().horizontalAdvance("0000.00 s  = 0000.00"))
-        self.time.setAccessibleName("Time")
         row = QHBoxLayout(self)
         row.setContentsMargins(6, 2, 8, 2)
         row.setSpacing(1)
@@ -50,7 +46,6 @@ class PlayBar(QWidget):
             row.addWidget(button)
         row.addSpacing(6)
         row.addWidget(self.slider, 1)
-        row.addWidget(self.time)
         row.addSpacing(6)
         row.addWidget(self.back)
         row.addWidget(self.on)
@@ -69,12 +64,11 @@ class PlayBar(QWidget):
         self.slider.setPageStep(max(steps // 10, 1))
         self.slider.blockSignals(False)
 
-    def show_step(self, step: int, seconds: float, value: str) -> None:
+    def show_step(self, step: int) -> None:
         """Where it is, without telling."""
         self.slider.blockSignals(True)
         self.slider.setValue(step)
         self.slider.blockSignals(False)
-        self.time.setText(f"{seconds:.2f} s  {value}")
 
     def show_state(self, playing: bool, contacts: bool) -> None:
         self.play.setIcon(icon("pause" if playing else "play"))

@@ -160,10 +160,10 @@ def _shortened(one: Body, other: Body, direction: Floats, thickness: float, dept
         pose[:3, 3] = start * direction
         if start > depth or other.tree.gap(one.tree, close, pose).length < 0.25 * close:
             continue
-        found, faces = relation_moved(other, one, pose)
-        if found is not None and found.kind == APART:
+        stand = relation_moved(other, one, pose)
+        if stand.relation is not None and stand.relation.kind == APART:
             path = Path(np.array([pose, IDENTITY]), (0.0, start))
-            return float(start) - advance(one, other, path, 0.5 * close, float(start), faces, LOOKS).time
+            return float(start) - advance(one, other, path, 0.5 * close, float(start), stand.faces, LOOKS).time
     return depth
 
 

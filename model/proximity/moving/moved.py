@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -44,23 +46,33 @@ def meeting_of(one: Body, other: Body, pose: Floats) -> float:
     return MEETING * 2.0 * max(float(np.abs(one.bounds).max()), float(reach))
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Stand:
+    """How two bodies stand: `ends` (2, 3) are where their surfaces are nearest, or meet, and `faces` the triangles
+    there."""
+
+    relation: Relation | None
+    ends: Floats
+    faces: tuple[int, int]
+
+
 def relation_moved(
     one: Body,
     other: Body,
     pose: Floats,
     limit: float = np.inf,
     first: tuple[int, int] | None = None,
-) -> tuple[Relation | None, tuple[int, int]]:
-    """What `bodies.relation` says where the other is moved by a pose (4, 4), and the two triangles that are nearest:
-    `first` of the next question about these two."""
+) -> Stand:
+    """What `bodies.relation` says where the other is moved by a pose (4, 4). `first` are the nearest triangles of the
+    question before about these two."""
     near = meeting_of(one, other, pose)
     gap = one.tree.gap(other.tree, max(limit, 2.0 * near), pose, first)
     ends = np.array([gap.a, gap.b])
     if gap.length > near and _boxes_apart(one, other, pose):
         within = gap.length < limit - near
         shared = 0.0 if one.closed and other.closed else None
-        return Relation(APART, gap.length, ends, shared) if within else None, gap.faces
-    return _relation(one, moved_body(other, pose), gap.length, ends, limit, near), gap.faces
+        return Stand(Relation(APART, gap.length, ends, shared) if within else None, ends, gap.faces)
+    return Stand(_relation(one, moved_body(other, pose), gap.length, ends, limit, near), ends, gap.faces)
 
 
 def _boxes_apart(one: Body, other: Body, pose: Floats) -> bool:

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 from ...document.document import Document
 from ...solid.tessellation import DEFAULT_TOLERANCE
 from ...worker.shown import Message
-from ..bodies import APART, TOUCHING, Relation
+from ..bodies import APART, TOUCHING
 from ..motion import Motion
 from .first_meeting import FirstContact, Told, first_between
-from .moved import inverse_of, mapped, relation_moved
+from .moved import Stand, inverse_of, mapped, relation_moved
 from .parts import MovingParts, Standing, boxes_of, motion_called, pairs_near
 from .screws import Path
 
@@ -29,8 +29,11 @@ STILL = 1e-13
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Touch:
-    """Two parts by number, and how the first stands to the second (see `bodies.Relation`); `place` (3,) is
-    where, of overlaps roughly; `asked` the clearance in mm that it is too near for, 0 where nothing is asked."""
+    """Two parts by number, and how the first stands to the second (see `bodies.Relation`).
+
+    `place` (3,) in mm is where they are nearest, or where their surfaces meet. `asked` is the clearance in mm that it
+    is too near for, 0 where nothing is asked.
+    """
 
     one: int
     other: int
@@ -66,6 +69,23 @@ class Played:
         """(n,) which parts are not in one place all the time."""
         still = np.abs(self.moves - self.moves[:1]).max(axis=(0, 2, 3), initial=0.0) <= STILL
         return ~still | self.recut.any(axis=0)
+
+    def is_new(self, touch: Touch) -> bool:
+        """Whether two parts meet that did not at the beginning, or overlap at any time."""
+        if touch.kind in (APART, TOUCHING):
+            return touch.kind == TOUCHING and (touch.one, touch.other) not in _meeting_pairs(self.touches[0])
+        return True
+
+    def listed(self, share: float) -> tuple[Touch, ...]:
+        """The contacts of the step at or before a share of the time, and the first one at its moment."""
+        listed = self.touches[int(min(max(share, 0.0), 1.0) * self.motion.steps + 1e-9)]
+        first = self.first
+        if first is None or abs(share * self.motion.seconds - first.time) > 1e-9 * self.motion.seconds:
+            return listed
+        if (first.one, first.other) in _meeting_pairs(listed):
+            return listed
+        points = np.array([first.place, first.place])
+        return (Touch(first.one, first.other, TOUCHING, 0.0, points, 0.0, first.place), *listed)
 
     def table(self, contacts: bool = True) -> dict[str, Any]:
         """Plain values, as JSON has them; without `contacts` the steps are left out."""
@@ -193,14 +213,14 @@ class _Look:
             for pair in checks.pairs
             if pair.one in place and pair.other in place
         }
-        self._known: dict[tuple[int, int], tuple[int, int, Floats, Relation | None, tuple[int, int]]] = {}
+        self._known: dict[tuple[int, int], tuple[int, int, Floats, Stand]] = {}
 
     def touches(self, standing: Standing) -> tuple[Touch, ...]:
         """The worst first: overlaps by their volume, then by gap."""
         boxes = boxes_of(self._parts.bodies, standing)
         found = []
         for one, other in pairs_near(boxes, 0.5 * self._most * (1.0 + 1e-9) + self._margin(boxes)):
-            touch = self._touch(one, other, standing, boxes)
+            touch = self._touch(one, other, standing)
             if touch is not None:
                 found.append(touch)
         found.sort(key=lambda touch: (touch.gap, -(touch.overlap or 0.0), touch.one, touch.other))
@@ -210,24 +230,23 @@ class _Look:
     def _margin(boxes: Floats) -> float:
         return 1e-11 * float(np.nanmax(np.abs(boxes), initial=1.0))
 
-    def _touch(self, one: int, other: int, standing: Standing, boxes: Floats) -> Touch | None:
+    def _touch(self, one: int, other: int, standing: Standing) -> Touch | None:
         own = self._own.get((one, other))
         asked = self._clearance if own is None else own.clearance
         asked = self._clearance if asked is None else asked
         touching = own is not None and own.touching
         limit = 0.0 if touching else asked
-        relation = self._relation(one, other, standing, limit)
+        stand = self._stand(one, other, standing, limit)
+        relation = stand.relation
         if relation is None or (touching and relation.kind == TOUCHING):
             return None
         points = relation.points
-        if points is None:
-            place = 0.5 * (boxes[[one, other], 0].max(axis=0) + boxes[[one, other], 1].min(axis=0))
-        else:
+        if points is not None:
             points = mapped(standing.poses[one], points)
-            place = points.mean(axis=0)
+        place = mapped(standing.poses[one], stand.ends).mean(axis=0)
         return Touch(one, other, relation.kind, relation.gap, points, relation.overlap, place, limit)
 
-    def _relation(self, one: int, other: int, standing: Standing, limit: float) -> Relation | None:
+    def _stand(self, one: int, other: int, standing: Standing, limit: float) -> Stand:
         """In the axes of the first one's body."""
         shapes = int(standing.shapes[one]), int(standing.shapes[other])
         pose = inverse_of(standing.poses[one]) @ standing.poses[other]
@@ -236,11 +255,11 @@ class _Look:
         if known is not None and known[:2] == shapes:
             if np.abs(known[2] - pose).max() <= STILL * max(1.0, float(np.abs(pose).max())):
                 return known[3]
-            faces = known[4]
+            faces = known[3].faces
         bodies = self._parts.bodies
-        relation, faces = relation_moved(bodies[shapes[0]], bodies[shapes[1]], pose, limit, faces)
-        self._known[one, other] = (*shapes, pose, relation, faces)
-        return relation
+        stand = relation_moved(bodies[shapes[0]], bodies[shapes[1]], pose, limit, faces)
+        self._known[one, other] = (*shapes, pose, stand)
+        return stand
 
 
 def _meeting_pairs(touches: tuple[Touch, ...]) -> set[tuple[int, int]]:

@@ -82,7 +82,8 @@ def meeting(moving: Body, other: Body, path: Path, tolerance: float, until: floa
     if moving.empty or other.empty:
         return None
     start = float(path.times[0])
-    found, faces = relation_moved(other, moving, path.poses[0])
+    stand = relation_moved(other, moving, path.poses[0])
+    found, faces = stand.relation, stand.faces
     assert found is not None
     if found.kind != APART:
         return Contact(start, 0, None if found.points is None else found.points[0], found.kind)
