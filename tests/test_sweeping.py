@@ -1,164 +1,91 @@
-"""Frames along a path: orthonormal, across it, without turning about it, close enough together, closed where it is."""
+"""First contacts of bodies on paths, by formula."""
 
 import numpy as np
 import pytest
+from manifold3d import Manifold
+from moving_bodies import block, body, pose
 
 from solidtree.model.document.errors import Refusal
-from solidtree.model.outline.sweeping import path_frames, start_frame
-from solidtree.model.path import shapes
-from solidtree.model.path.path import Path
-from solidtree.model.spline.spline_fitting import interpolated
+from solidtree.model.proximity.moving.screws import Path
+from solidtree.model.proximity.moving.sweeping import first_contact
 
 
-def path(*commands):
-    return Path.of_commands(commands)
+def test_two_spheres_meet_when_their_centres_are_two_radii_apart():
+    one, other = body(Manifold.sphere(1, 128)), body(Manifold.sphere(1, 128).translate((10, 0, 0)))
+    found = first_contact(one, [other], [pose(), pose(20)], [0, 10])
+    assert found is not None and found.kind == "touching" and found.other == 0
+    assert found.time == pytest.approx((10 - 2) / 2, abs=1e-5)
+    assert found.place == pytest.approx([9, 0, 0], abs=1e-4)
 
 
-ARC = path(("move", (0, 0)), ("cubic", (40, 0), (60, 30), (60, 60)))
-SPACE = path(("move", (0, 0, 0)), ("cubic", (0, 0, 30), (30, 0, 30), (30, 30, 60)))
-SQUARE = path(("move", (0, 0)), ("line", (20, 0)), ("line", (20, 20)), ("line", (0, 20)), ("close",))
+def test_the_nearest_of_several_is_met_and_what_is_beside_the_way_never():
+    ball = body(Manifold.sphere(1, 64))
+    walls = [body(block(1, 9, 9, (x, -4, -4))) for x in (30, 10, 20)]
+    found = first_contact(ball, walls, [pose(), pose(100)], [2, 4])
+    assert found is not None and found.other == 1 and found.time == pytest.approx(2 + 2 * 9 / 100, abs=1e-5)
+    assert first_contact(ball, walls, [pose(0, 50), pose(100, 50)], [2, 4]) is None
 
 
-def helix(radius=10.0, pitch=8.0, turns=2.0):
-    angle = np.linspace(0, 2 * np.pi * turns, 400)
-    points = np.column_stack((radius * np.cos(angle), radius * np.sin(angle), pitch * angle / (2 * np.pi)))
-    return Path.of_commands([("move", points[0]), ("spline", interpolated(points))])
+def test_a_thin_wall_is_not_jumped_over_in_one_leg():
+    found = first_contact(
+        body(Manifold.sphere(1, 64)), [body(block(1e-3, 9, 9, (500, -4, -4)))], [pose(), pose(1e6)], [0, 1]
+    )
+    assert found is not None and found.time == pytest.approx(499e-6, rel=1e-6)
 
 
-@pytest.mark.parametrize("along", [ARC, SPACE, helix()])
-def test_frames_are_orthonormal_and_across_the_path(along):
-    frames = path_frames(along, 0.01, 5)
-    square = frames.axes @ frames.axes.transpose(0, 2, 1)
-    np.testing.assert_allclose(square, np.broadcast_to(np.eye(3), square.shape), atol=1e-12)
-    assert (np.linalg.det(frames.axes) > 0).all()
-    chord = np.diff(frames.origins, axis=0)
-    chord /= np.linalg.norm(chord, axis=1)[:, None]
-    middle = frames.axes[1:, 2] + frames.axes[:-1, 2]
-    middle /= np.linalg.norm(middle, axis=1)[:, None]
-    np.testing.assert_allclose((chord * middle).sum(axis=1), 1, atol=1e-4)
+@pytest.mark.parametrize("legs", [2, 6, 40])
+def test_a_turning_bar_hits_a_post_at_the_angle_however_many_poses_there_are(legs):
+    bar, post = body(block(10, 1, 1, (0, -0.5, 0))), body(block(1, 1, 4, (-0.5, 8, -2)))
+    angles = np.linspace(0, 170, legs + 1)
+    found = first_contact(bar, [post], [pose(turn=angle) for angle in angles], angles)
+    corner = np.array([0.5, 8.0])  # of the post, half a millimetre above the bar's middle
+    expected = np.degrees(np.arctan2(corner[1], corner[0]) - np.arcsin(0.5 / np.linalg.norm(corner)))
+    assert found is not None and found.time == pytest.approx(expected, abs=1e-3)
+    assert found.place is not None and found.place[:2] == pytest.approx(corner, abs=1e-3)
 
 
-@pytest.mark.parametrize("along", [ARC, SPACE, helix()])
-def test_the_lengths_are_those_of_the_path(along):
-    assert path_frames(along, 0.001, 5).length == pytest.approx(along.length(), rel=1e-6)
+def test_a_turn_about_an_axis_far_away_is_an_arc_between_the_poses():
+    """A ball on an arm goes round (0, 0) with radius 10: a chord would pass the pin at radius 10."""
+    ball, pin = body(Manifold.sphere(0.5, 64).translate((10, 0, 0))), body(Manifold.cylinder(2, 0.25, 0.25, 64, True))
+    at = 10 * np.array([np.cos(np.radians(45)), np.sin(np.radians(45)), 0])
+    found = first_contact(ball, [body(pin.solid.translate(at))], [pose(), pose(turn=90)], [0, 90])
+    expected = 45 - 2 * np.degrees(np.arcsin(0.75 / 2 / 10))
+    assert found is not None and found.time == pytest.approx(expected, abs=0.02)
 
 
-def test_along_a_helix_the_frame_turns_against_the_normal_as_its_torsion_says():
-    radius, pitch, turns = 10.0, 8.0, 2.0
-    frames = path_frames(helix(radius, pitch, turns), 1e-4, 5)
-    rise = pitch / (2 * np.pi)
-    torsion = rise / (radius**2 + rise**2)
-    inwards = -frames.origins * (1, 1, 0) / radius
-    x, y = frames.axes[:, 0], frames.axes[:, 1]
-    angle = np.unwrap(np.arctan2((y * inwards).sum(axis=1), (x * inwards).sum(axis=1)))
-    np.testing.assert_allclose(angle - angle[0], torsion * frames.lengths, atol=2e-3)
+def test_a_screw_turns_and_goes_along_its_axis():
+    path = Path([pose(3, 0, 0), pose(3, 0, 5, turn=0) @ pose(turn=120)], [0, 1])
+    (screw,) = path.screws
+    assert screw.angle == pytest.approx(np.radians(120)) and screw.shift == pytest.approx([0, 0, 5])
+    assert screw.centre[:2] == pytest.approx([3, 0])
+    half = path.pose(0.5)
+    assert half[:3, :3] == pytest.approx(pose(turn=60)[:3, :3]) and half[:3, 3] == pytest.approx([3, 0, 2.5])
+    assert path.speeds(np.array([[2.0, 0, 0]]))[0] == pytest.approx(np.hypot(5, 2 * np.radians(120)))
+    # A nut with a rib goes up a screw, and its rib meets a stop at its height.
+    rib = body(block(1, 1, 1, (5, -0.5, 0)))
+    stop = body(block(20, 20, 1, (-10, -10, 4)))
+    found = first_contact(rib, [stop], [pose(turn=120 * k) + pose(0, 0, 2.0 * k) - pose() for k in range(4)], range(4))
+    assert found is not None and found.time == pytest.approx(3 / 2, abs=1e-4)
 
 
-def test_a_finer_tolerance_follows_the_path_and_what_reaches_out_from_it():
-    """Between neighbouring frames the true place is no further from the chord than the tolerance."""
-    reach = 20.0
-    fine = path_frames(SPACE, 1e-5, reach)
-    for tolerance in (1.0, 0.1, 0.01):
-        coarse = path_frames(SPACE, tolerance, reach)
-        for offset in ((0, 0), (reach, 0), (-reach, 0), (0, reach), (0, -reach)):
-            near, true = (f.origins + (np.array(offset)[None, :, None] * f.axes[:, :2]).sum(axis=1)
-                          for f in (coarse, fine))  # fmt: skip
-            line = np.diff(near, axis=0)
-            share = np.einsum("nmj,mj->nm", true[:, None] - near[:-1], line) / (line**2).sum(axis=1)
-            foot = near[:-1] + np.clip(share, 0, 1)[..., None] * line
-            assert np.linalg.norm(true[:, None] - foot, axis=2).min(axis=1).max() < 1.1 * tolerance
-    assert len(path_frames(SPACE, 0.01, reach).lengths) < 10 * len(path_frames(SPACE, 1.0, reach).lengths) + 10
-
-
-def test_segments_say_how_many_frames_make_a_full_turn():
-    circle = shapes.ellipse((0, 0), 10, exact=True)
-    assert len(path_frames(circle, 1.0, 100, segments=32).origins) == 33
-    assert len(path_frames(SQUARE, 1.0, 100, segments=32).origins) == 5
-
-
-@pytest.mark.parametrize(
-    ("along", "x", "y"),
-    [
-        (path(("move", (1, 2)), ("line", (5, 2))), (0, 1, 0), (0, 0, 1)),
-        (path(("move", (1, 2, 3)), ("line", (1, 2, 9))), (1, 0, 0), (0, 1, 0)),
-        (path(("move", (1, 2, 3)), ("line", (1, 2, -9))), (1, 0, 0), (0, -1, 0)),
-        (path(("move", (0, 0, 0)), ("line", (3, 0, 4))), (0, 1, 0), (-0.8, 0, 0.6)),
-    ],
-)
-def test_at_the_start_y_is_as_near_to_z_as_it_can_be(along, x, y):
-    frame = start_frame(along)
-    np.testing.assert_allclose(frame[:, 0], x, atol=1e-15)
-    np.testing.assert_allclose(frame[:, 1], y, atol=1e-15)
-    np.testing.assert_allclose(np.cross(x, y), frame[:, 2], atol=1e-15)
-    np.testing.assert_allclose(path_frames(along, 0.1).axes[0], frame[:, :3].T, atol=1e-15)
-
-
-def test_a_direction_is_found_where_the_path_begins_with_a_doubled_point():
-    along = path(("move", (0, 0)), ("line", (0, 0)), ("cubic", (0, 0), (10, 0), (20, 20)))
-    np.testing.assert_allclose(start_frame(along)[:, 2], (1, 0, 0), atol=1e-12)
-
-
-@pytest.mark.parametrize("mitred", [True, False])
-@pytest.mark.parametrize("closed", [SQUARE, shapes.ellipse((0, 0), 10, exact=True)])
-def test_a_closed_path_ends_as_it_began(closed, mitred):
-    frames = path_frames(closed, 0.01, 3, mitred=mitred)
-    assert frames.closed
-    np.testing.assert_allclose(frames.origins[-1], frames.origins[0], atol=1e-12)
-    np.testing.assert_allclose(frames.axes[:, 1, 2], 1, atol=1e-12)
-    if mitred or closed is not SQUARE:
-        np.testing.assert_allclose(frames.axes[-1], frames.axes[0], atol=1e-9)
-
-
-def test_a_closed_path_in_space_spreads_what_it_turned_by():
-    angle = np.linspace(0, 2 * np.pi, 49)[:-1]
-    waves = (np.sin(angle) + 2 * np.sin(2 * angle), np.cos(angle) - 2 * np.cos(2 * angle), -np.sin(3 * angle))
-    points = 10 * np.column_stack(waves)  # a trefoil knot
-    knot = Path.of_commands([("move", points[0]), ("spline", interpolated(points, ends="closed")), ("close",)])
-    frames = path_frames(knot, 1e-4, 5)
-    np.testing.assert_allclose(frames.axes[-1], frames.axes[0], atol=1e-9)
-    across = 0.5 * (frames.axes[1:, 1] + frames.axes[:-1, 1])
-    spin = (np.diff(frames.axes[:, 0], axis=0) * across).sum(axis=1)
-    speed = spin.sum() / frames.length
-    assert abs(spin.sum()) > 0.1
-    np.testing.assert_allclose(spin / np.diff(frames.lengths), speed, rtol=0.02)
-
-
-def test_a_corner_is_mitred_in_its_bisector_plane():
-    bend = path(("move", (0, 0)), ("line", (10, 0)), ("line", (10, 10)))
-    frames = path_frames(bend, 0.1)
-    assert frames.corners.tolist() == [False, True, False]
-    assert frames.turns[1] == pytest.approx(90)
-    np.testing.assert_allclose(frames.axes[1], [(-1, 1, 0), (0, 0, 1), (np.sqrt(0.5), np.sqrt(0.5), 0)], atol=1e-12)
-    np.testing.assert_allclose(frames.axes[2], [(-1, 0, 0), (0, 0, 1), (0, 1, 0)], atol=1e-12)
-
-
-def test_a_corner_that_is_not_mitred_has_the_frames_before_and_after_it():
-    bend = path(("move", (0, 0)), ("line", (10, 0)), ("line", (10, 10)))
-    frames = path_frames(bend, 0.1, mitred=False)
-    np.testing.assert_allclose(frames.lengths, [0, 10, 10, 20])
-    np.testing.assert_allclose(frames.axes[:, 2], [(1, 0, 0), (1, 0, 0), (0, 1, 0), (0, 1, 0)], atol=1e-12)
-    assert frames.corners.tolist() == [False, True, True, False]
-
-
-def test_steps_can_be_limited():
-    straight = path(("move", (0, 0)), ("line", (10, 0)))
-    np.testing.assert_allclose(path_frames(straight, 1.0, step=2.5).lengths, [0, 2.5, 5, 7.5, 10])
+def test_what_overlaps_or_is_inside_at_the_beginning_is_told():
+    ball, room = body(Manifold.sphere(1, 32)), body(block(10, 10, 10, (-5, -5, -5)))
+    found = first_contact(ball, [room], [pose(), pose(9)], [1, 2])
+    assert found is not None and (found.time, found.kind, found.place) == (1, "around", None)
+    shell = body(room.solid - block(8, 8, 8, (-4, -4, -4)))
+    found = first_contact(ball, [shell], [pose(), pose(9)], [0, 9])
+    assert found is not None and found.kind == "touching" and found.time == pytest.approx(3, abs=1e-4)
 
 
 @pytest.mark.parametrize(
-    ("along", "words"),
+    "poses, times, words",
     [
-        (Path(()), "empty"),
-        (path(("move", (0, 0)), ("line", (1, 0)), ("move", (5, 5)), ("line", (6, 5))), "2 contours"),
-        (path(("move", (1, 1)), ("line", (1, 1))), "point"),
-        (path(("move", (0, 0)), ("line", (10, 0)), ("line", (0, 1))), "turns back by 174° at 10 mm"),
+        ([pose(), 2 * pose()], [0, 1], "pose 1 does more than turn and move"),
+        ([pose(), pose(1)], [0, 0], "each larger than the one before"),
+        ([pose()], [0, 1], "a time for each of its 1 poses"),
+        ([1, 2], [0, 1], "a path is a list of poses"),
     ],
 )
-def test_what_nothing_can_be_drawn_along_is_refused(along, words):
+def test_what_is_no_path_is_refused(poses, times, words):
     with pytest.raises(Refusal, match=words):
-        path_frames(along, 0.1)
-
-
-def test_a_cusp_within_a_curve_makes_no_endless_steps():
-    cusp = path(("move", (0, 0)), ("cubic", (20, 20), (0, 20), (20, 0)))
-    assert len(path_frames(cusp, 0.01, 5).origins) < 5000
+        first_contact(body(Manifold.sphere(1)), [], poses, times)
