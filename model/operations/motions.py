@@ -14,7 +14,7 @@ from ..document.nodes import Node
 from ..document.placement import Move, Placement, Step, Turn
 from ..document.tree import change_each, outermost
 from ..proximity.motion import Motion
-from .parameters import set_parameter
+from .parameters import declaring, set_parameter
 from .placing import AXES
 
 FIELDS = ("parameter", "start", "end", "seconds", "steps")
@@ -75,6 +75,7 @@ def set_in_motion(
     share = _share(motion)
     away = vector(by, "by")
     turned = _turn(turn)
+    document = declaring(document, [*away, *(() if turned is None else turned[1:])])
     if not any(away) and turned is None:
         raise Refusal("say by how many millimetres the nodes go, or by how many degrees they turn")
     move = Move(tuple(_scaled(share, part) for part in away)) if any(away) else None
