@@ -18,7 +18,7 @@ class Player(QObject):
 
     def __init__(self, parent: QObject | None = None, clock: Callable[[], float] = time.monotonic) -> None:
         super().__init__(parent)
-        self._clock = clock
+        self.clock = clock
         self._ticks = QTimer(self)
         self._ticks.setInterval(INTERVAL)
         self._ticks.timeout.connect(self.tick)
@@ -34,7 +34,7 @@ class Player(QObject):
     def go(self, share: float) -> None:
         """Go to a share of the time; playing goes on from there."""
         self.share = min(max(share, 0.0), 1.0)
-        self._begin = self._clock() - self.share * self.seconds
+        self._begin = self.clock() - self.share * self.seconds
         self.moved.emit(self.share)
 
     def play(self) -> None:
@@ -52,7 +52,7 @@ class Player(QObject):
 
     def tick(self) -> None:
         """To where the clock is."""
-        share = (self._clock() - self._begin) / self.seconds
+        share = (self.clock() - self._begin) / self.seconds
         if share >= 1.0 and self.looping:
             self._begin += int(share) * self.seconds
             share %= 1.0
