@@ -6,7 +6,17 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import Qt, Signal
-from PySide6.QtWidgets import QCheckBox, QComboBox, QGridLayout, QHBoxLayout, QLabel, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QCompleter,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QSizePolicy,
+    QToolButton,
+    QWidget,
+)
 
 from ..icons import icon
 from ..panels.number_field import NumberField, Steps
@@ -42,7 +52,7 @@ class MotionForm(QWidget):
         self.names = QComboBox(self)
         self.names.setEditable(True)
         self.names.setInsertPolicy(QComboBox.InsertPolicy.NoInsert)
-        self.names.setCompleter(None)
+        self.names.setCompleter(QCompleter([], self.names))  # a new name is not an old one begun
         self.names.setAccessibleName("Motion")
         self.names.setToolTip("The motion that is played; type another name to rename it")
         self.names.setMinimumContentsLength(12)

@@ -77,7 +77,9 @@ def first_between(
             share = begin + found[0] * (end - begin)
             width = (end - begin) / FINER
             around = np.clip([share - width, share + width], begin, end)
-            finer = [_against(parts.at(float(part)), one, other) for part in np.linspace(*around, FINER + 1)]
+            finer = [
+                _against(parts.at(float(part)), one, other) for part in np.linspace(around[0], around[1], FINER + 1)
+            ]
             again = _meeting(first, second, finer, 1.0)
             if again is None:
                 break

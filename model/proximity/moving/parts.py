@@ -136,11 +136,10 @@ def motion_called(document: Document, name: str | None = None) -> Motion:
     motions = document.motions
     if not motions:
         raise Refusal("the document holds no motion: add one with add_motion, or in the Motion panel")
-    if name is None:
-        if len(motions) > 1:
-            raise Refusal(f"name one of the motions: {', '.join(motion.name for motion in motions)}")
-        return motions[0]
-    for motion in motions:
-        if motion.name == name:
-            return motion
-    raise Refusal(f"there is no motion called “{name}”, but {', '.join(motion.name for motion in motions)}")
+    found = [motion for motion in motions if name in (None, motion.name)]
+    names = ", ".join(motion.name for motion in motions)
+    if not found:
+        raise Refusal(f"there is no motion called “{name}”, but {names}")
+    if len(found) > 1:
+        raise Refusal(f"name one of the motions: {names}")
+    return found[0]

@@ -106,11 +106,12 @@ def screw_between(one: Floats, other: Floats) -> Screw:
 
 
 def _rigid(poses: ArrayLike) -> Floats:
+    found: Floats
     try:
         found = np.array(poses, np.float64)
     except (TypeError, ValueError):
         found = np.zeros(0)
-    if found.ndim != 3 or found.shape[1] not in (3, 4) or found.shape[2] != 4 or not len(found):
+    if found.ndim != 3 or found.shape[1:] not in ((3, 4), (4, 4)) or not len(found):
         raise Refusal("a path is a list of poses, each a matrix of 3 or 4 rows of 4 numbers")
     if not np.isfinite(found).all():
         raise Refusal("a pose holds a number that is not finite")
