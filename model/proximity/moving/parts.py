@@ -20,7 +20,7 @@ from ...worker.shown import Message
 from ..bodies import Body
 from ..checking import body_of
 from ..motion import Motion
-from .moved import corners_of, mapped
+from .moved import corners_of
 from .screws import RIGID
 
 Floats = NDArray[np.float64]
@@ -59,7 +59,9 @@ class MovingParts:
         self._progress = progress
         self._evaluator, self._resolver = Evaluator(), Resolver()
         self._known: dict[bytes, list[tuple[Floats, int]]] = {}
-        """By a node's digest without its placement: the placements (3, 4) that it was cut at, with the shapes."""
+        """By a digest without placement: the inverses (3, 4) of the placements that were cut, with the shapes."""
+        self._last: dict[str, tuple[Node, tuple[int, Floats]]] = {}
+        """By a root's id: as it was looked at last, and its shape."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -84,28 +86,32 @@ class MovingParts:
 
     def _shape(self, root: Node) -> tuple[int, Floats]:
         """The shape of a resolved root, and where its body goes (3, 4)."""
+        last = self._last.get(root.id)
+        if last is None or last[0] is not root:
+            last = self._last[root.id] = root, self._placed(root)
+        return last[1]
+
+    def _placed(self, root: Node) -> tuple[int, Floats]:
         matrix = root.placement.matrix()
         known = self._known.setdefault(root.shape_digest, [])
         for before, number in known:
-            pose = product(matrix, inverse(before))
+            pose = product(matrix, before)
             turn = pose[:, :3]
             if np.abs(turn @ turn.T - np.eye(3)).max() <= RIGID and np.linalg.det(turn) > 0.0:
                 return number, pose
         result = result_of(root, self._evaluator.evaluate(root, self.tolerance, self._progress))
         self.messages |= dict.fromkeys(result.messages)
         self.bodies.append(body_of(result))
-        known.append((matrix, len(self.bodies) - 1))
+        known.append((inverse(matrix), len(self.bodies) - 1))
         return len(self.bodies) - 1, np.eye(3, 4)
 
 
 def boxes_of(bodies: list[Body], standing: Standing) -> Floats:
     """(n, 2, 3) around parts; infinitely far away where there is nothing."""
-    boxes = np.full((len(standing.shapes), 2, 3), np.nan)
-    for number, (shape, pose) in enumerate(zip(standing.shapes.tolist(), standing.poses, strict=True)):
-        if not bodies[shape].empty:
-            corners = mapped(pose, corners_of(bodies[shape].bounds))
-            boxes[number] = corners.min(axis=0), corners.max(axis=0)
-    return boxes
+    own = np.array([np.full((8, 3), np.nan) if body.empty else corners_of(body.bounds) for body in bodies])
+    corners = own.reshape(-1, 8, 3)[standing.shapes] @ standing.poses[:, :3, :3].transpose(0, 2, 1)
+    corners += standing.poses[:, None, :3, 3]
+    return np.stack((corners.min(axis=1), corners.max(axis=1)), axis=1)
 
 
 def pairs_near(boxes: Floats, reach: float) -> list[tuple[int, int]]:
