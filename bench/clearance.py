@@ -14,6 +14,10 @@ import trimesh
 from manifold3d import Manifold
 
 from solidtree.model.mesh.faults.box_pairs import meeting
+from solidtree.model.partition.build import build
+from solidtree.model.partition.faces import faces_of_polygons
+from solidtree.model.partition.rays import Rays
+from solidtree.model.partition.sight import inside as within
 from solidtree.model.proximity.bodies import OVERLAPPING, Body, clashes, overlap_of
 from solidtree.model.proximity.boxes import BoxTree
 from solidtree.model.solid.results import arrays_of
@@ -33,18 +37,20 @@ def best(run: Callable[[], T]) -> tuple[float, T]:
     return min(times), result
 
 
+KINDS = (
+    Manifold.sphere(5, 32),
+    Manifold.cylinder(9, 4, 4, 96, True) - Manifold.cylinder(10, 2, 2, 64, True),
+    Manifold.cube((7, 7, 7), True) - Manifold.sphere(4, 48),
+    Manifold.revolve(Manifold.cylinder(1, 1.4, 1.4, 24).slice(0.5).translate((3.6, 0)), 32),
+)
+
+
 def assembly() -> list[Manifold]:
     """Parts of 500 to 2,000 triangles in a lattice, turned, the near ones some tenths of a millimetre apart."""
     rng = np.random.default_rng(7)
-    kinds = (
-        Manifold.sphere(5, 32),
-        Manifold.cylinder(9, 4, 4, 96, True) - Manifold.cylinder(10, 2, 2, 64, True),
-        Manifold.cube((7, 7, 7), True) - Manifold.sphere(4, 48),
-        Manifold.revolve(Manifold.cylinder(1, 1.4, 1.4, 24).slice(0.5).translate((3.6, 0)), 32),
-    )
     places = np.stack(np.meshgrid(*3 * (np.arange(6),), indexing="ij"), axis=-1).reshape(-1, 3)[:PARTS]
     return [
-        kinds[k % 4].rotate(rng.uniform(0, 360, 3).tolist()).translate((11.4 * place).tolist())
+        KINDS[k % 4].rotate(rng.uniform(0, 360, 3).tolist()).translate((11.4 * place).tolist())
         for k, place in enumerate(places)
     ]
 
@@ -100,11 +106,11 @@ def main() -> None:
     print(
         f"{PARTS} parts, {triangles:,} triangles, {len(pairs)} pairs of near boxes, {len(near)} within {CLEARANCE} mm"
     )
-    print(f"all of it {1e3 * ours:.1f} ms, with parts known from before {1e3 * again:.1f} ms, of which {1e3 * volumes:.1f} "
-          f"ms are the volumes of {len(overlapping)} overlaps; min_gap on those pairs, which tells no volume, "
-          f"{1e3 * gap_time:.1f} ms: {gap_time / ours:.1f}, {gap_time / again:.1f} and without volumes "
-          f"{gap_time / (again - volumes):.1f} times; the same answer for {same} of {len(pairs)}, farthest apart "
-          f"{worst:.1e} mm")  # fmt: skip
+    print(f"all of it {1e3 * ours:.1f} ms, with parts known from before {1e3 * again:.1f} ms, of which "
+          f"{1e3 * volumes:.1f} ms are the volumes of {len(overlapping)} overlaps; min_gap on those pairs, which "
+          f"tells no volume, {1e3 * gap_time:.1f} ms: {gap_time / ours:.1f}, {gap_time / again:.1f} and without "
+          f"volumes {gap_time / (again - volumes):.1f} times; the same answer for {same} of {len(pairs)}, "
+          f"farthest apart {worst:.1e} mm")  # fmt: skip
     fcl_time, fcl_gaps = best(lambda: by_fcl(bodies, pairs))
     if fcl_gaps is None:
         print("python-fcl is not installed")
@@ -113,16 +119,23 @@ def main() -> None:
         worst = max(abs(max(fcl_gaps[pair], 0.0) - gaps[pair]) for pair in pairs)
         print(f"exact distances of those pairs {1e3 * gaps_time:.0f} ms, python-fcl {1e3 * fcl_time:.0f} ms: "
               f"{fcl_time / gaps_time:.1f} times; farthest apart {worst:.1e} mm")  # fmt: skip
-    part = solids[1]
-    mesh = arrays_of(part.to_mesh64())
-    points = np.random.default_rng(1).uniform(-6, 6, (POINTS, 3)) + np.mean(bodies[1].bounds, axis=0)
-    ours, inside = best(lambda: bodies[1].holds(points))
-    volume = inside.mean() * 12**3
-    print(f"{POINTS:,} points in a solid of {part.num_tri()} triangles: {ours:.2f} s; "
-          f"volume by counting them {volume:.1f}, exact {part.volume():.1f} mm³")  # fmt: skip
+    tube = Body("", *arrays_of(KINDS[1].to_mesh64()), KINDS[1])
+    points = np.random.default_rng(1).uniform(-6, 6, (POINTS, 3))
+    tube.tree.windings(points[:1])
+    ours, inside = best(lambda: tube.holds(points))
+    rays = Rays(build(faces_of_polygons(list(tube.vertices[tube.triangles]))))
+    batches = [slice(k, k + 50_000) for k in range(0, POINTS, 50_000)]
+    askew = sum(int((within(rays, points[batch], 0.0) != inside[batch]).sum()) for batch in batches)
+    across, sag = np.hypot(*points.T[:2]), 1.0 - np.cos(np.pi / 64)  # of the coarser one
+    clear = ~(((across > 4 * (1 - sag)) & (across < 4)) | ((across > 2 * (1 - sag)) & (across < 2)))
+    formula = (across < 4) & (across > 2) & (np.abs(points[:, 2]) < 4.5)
+    wrong = int((inside != formula)[clear].sum())
+    print(f"{POINTS:,} points in a tube of {len(tube.triangles)} triangles: {ours:.2f} s; {askew} differ from the "
+          f"parity of askew rays through a BSP tree, {wrong} of the {clear.sum():,} that are not beside its chords "
+          f"from the formula")  # fmt: skip
     try:
         start = time.perf_counter()
-        told = trimesh.Trimesh(*mesh, process=False).contains(points[:THEIRS])
+        told = trimesh.Trimesh(tube.vertices, tube.triangles, process=False).contains(points[:THEIRS])
         theirs_time = time.perf_counter() - start
     except ImportError:
         print("rtree, which trimesh.contains needs, is not installed")

@@ -117,6 +117,15 @@ def ask_save_path(parent: QWidget, suggestion: Path, then: Callable[[str], None]
     dialog.open()
 
 
+def ask_report_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
+    """Which file to write the report of a check to."""
+    dialog = _file_dialog(parent, "Save report", str(start.parent), ["Page to print (*.html)"], then)
+    dialog.setAcceptMode(QFileDialog.AcceptMode.AcceptSave)
+    dialog.setDefaultSuffix("html")
+    dialog.selectFile(start.name)
+    dialog.open()
+
+
 def ask_diagram_path(parent: QWidget, start: Path, then: Callable[[str], None]) -> None:
     """Which file to write the diagram of the tree to."""
     dialog = _file_dialog(parent, "Export diagram", str(start.parent), ["SVG drawing (*.svg)"], then)

@@ -43,6 +43,9 @@ class Jobs(QObject):
     played = Signal(object, str)
     """The Played (model/proximity/moving/playing.py) that `play` was asked for last; or None, and why there is none."""
     playing_progress = Signal(int, int, str)
+    pairs_checked = Signal(object, str)
+    """The Report (model/proximity/findings.py) that `check_pairs` was asked for last; or None, and why there is not."""
+    pairs_progress = Signal(int, int, str)
     _told = Signal(object)
 
     def __init__(self, make_lane: Callable[[Callable[[LaneMessage], None]], Lane], parent: QObject) -> None:
@@ -57,6 +60,7 @@ class Jobs(QObject):
         self._drawing: int | None = None
         self._finding: int | None = None
         self._playing: int | None = None
+        self._pairs: int | None = None
         self.lane: Lane | None = None
 
     @property
@@ -149,9 +153,25 @@ class Jobs(QObject):
     def finding(self) -> bool:
         return self._finding is not None
 
+    def check_pairs(self, document: Document, tolerance: float) -> None:
+        """Look for pairs of visible solids that are not as the document asks, instead of those asked for before;
+        `pairs_checked` brings them. Solids are evaluated within `tolerance` mm."""
+        self._pairs = self._started().check_pairs(document, tolerance)
+
+    def stop_checking_pairs(self) -> None:
+        """Give up checking pairs; `pairs_checked` does not come."""
+        if self._pairs is not None and self.lane is not None:
+            self._pairs = None
+            self.lane.stop_checking_pairs()
+
+    @property
+    def checking_pairs(self) -> bool:
+        return self._pairs is not None
+
     def cancel(self) -> None:
         """Give up all of it."""
-        if self.lane is not None and (self.at_work or self._drawing is not None or self.finding or self.playing):
+        waited_for = self._drawing is not None or self.finding or self.checking_pairs or self.playing
+        if self.lane is not None and (self.at_work or waited_for):
             self.lane.cancel()
         if self._drawing is not None:
             self._end_drawing("it was cancelled")
@@ -159,6 +179,8 @@ class Jobs(QObject):
             self._end_finding(None, "it was cancelled")
         if self._playing is not None:
             self._end_playing(None, "it was cancelled")
+        if self._pairs is not None:
+            self._end_pairs(None, "it was cancelled")
         if self._exports:
             self._exports.clear()
             self.notice.emit("The export was cancelled; no file was written")
@@ -180,7 +202,16 @@ class Jobs(QObject):
         return self.lane
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.worker.messages import Died, Drawn, Exported, FaultsFound, MotionPlayed, Partitioned, Progress
+        from ..model.worker.messages import (
+            Died,
+            Drawn,
+            Exported,
+            FaultsFound,
+            MotionPlayed,
+            PairsChecked,
+            Partitioned,
+            Progress,
+        )
 
         if self._closed:
             return
@@ -198,6 +229,8 @@ class Jobs(QObject):
                 self._end_finding(found, fault or "")
             case MotionPlayed(request, played, fault) if request == self._playing:
                 self._end_playing(played, fault or "")
+            case PairsChecked(request, report, fault) if request == self._pairs:
+                self._end_pairs(report, fault or "")
             case Progress(request, done, total, label):
                 if request == self._drawing:
                     self.drawing_progress.emit(done, total, label)
@@ -205,6 +238,8 @@ class Jobs(QObject):
                     self.faults_progress.emit(done, total, label)
                 elif request == self._playing:
                     self.playing_progress.emit(done, total, label)
+                elif request == self._pairs:
+                    self.pairs_progress.emit(done, total, label)
                 elif request in self._exports:
                     self.progress.emit(done, total, f"Exporting {label}")
                 elif request == self._partition and not self._exports:
@@ -219,6 +254,8 @@ class Jobs(QObject):
                 self._end_drawing(f"{reason}, twice")
             case Died(request, reason, given_up) if given_up and request is not None and request == self._finding:
                 self._end_finding(None, f"{reason}, twice")
+            case Died(request, reason, given_up) if given_up and request is not None and request == self._pairs:
+                self._end_pairs(None, f"{reason}, twice")
 
             case Died(request, reason, given_up) if given_up and request is not None and request == self._playing:
                 self._end_playing(None, f"{reason}, twice")
@@ -230,6 +267,10 @@ class Jobs(QObject):
     def _end_finding(self, found: object, why: str) -> None:
         self._finding = None
         self.faults_found.emit(found, why)
+
+    def _end_pairs(self, report: object, why: str) -> None:
+        self._pairs = None
+        self.pairs_checked.emit(report, why)
 
     def _end_drawing(self, why: str) -> None:
         self._drawing = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QSettings
@@ -102,6 +103,14 @@ class Settings:
 
     def set_tolerance(self, purpose: str, value: float) -> None:
         self._store.setValue(f"tolerance/{purpose}", value)
+
+    def choice(self, name: str, of: Sequence[str]) -> str:
+        """One of several ways, the first where none has been chosen."""
+        value = self._store.value(f"view/{name}", of[0])
+        return value if value in of else of[0]
+
+    def set_choice(self, name: str, value: str) -> None:
+        self._store.setValue(f"view/{name}", value)
 
     def flag(self, name: str, default: bool) -> bool:
         """A switch of the view that outlives the window, such as the grid."""

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QMainWindow
 
 from ..model.editing.session import Session, State
 from ..model.surface.faults import bitmap_faults
+from .clearance.panel import ClearancePanel
 from .commands.actions import Actions
 from .commands.menus import fill_menus
 from .commands.nodes import NODE_BUTTONS
@@ -110,7 +111,14 @@ class MainWindow(QMainWindow):
         add_commands(self.actions_, self)
         self.section_tool = SectionTool(self.session, self.viewport, self)
         self.viewport.add_tool(self.section_tool)
-        self.handles = Handles(self.viewport, self.session, self.settings, lambda: self.looks.ghosts)
+        self.handles = Handles(
+            self.viewport,
+            self.session,
+            self.settings,
+            lambda: self.looks.ghosts,
+            self.files.background,
+            lambda: not self.evaluation.waiting,
+        )
         self.viewport.add_tool(self.handles)
         self.edit_tool = EditTool(self.session, self.viewport, self.curve, self.handles, self.settings)
         self.viewport.add_tool(self.edit_tool)
@@ -196,6 +204,7 @@ class MainWindow(QMainWindow):
         self.mesh = MeshPanel(self)
         self.faults = FaultsPanel(self)
         self.motion = MotionPanel(self)
+        self.clearance = ClearancePanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
         construction_page = ConstructionPage(self.curve, self.construction, self)
@@ -223,6 +232,7 @@ class MainWindow(QMainWindow):
                 "Problems": self.problems,
                 "Faults": self.faults,
                 "Motion": self.motion,
+                "Clearance": self.clearance,
                 "Sections": self.sections,
                 "Script": self.script,
                 "Measure": self.measurements,
@@ -253,6 +263,7 @@ class MainWindow(QMainWindow):
             self.mesh,
             self.faults,
             self.motion,
+            self.clearance,
         ):
             part.session_changed(before, after)
         self.setWindowModified(self.session.modified)
@@ -313,6 +324,9 @@ class MainWindow(QMainWindow):
 
     def show_motion(self) -> None:
         raise_dock(self, "Motion", FAULTS_HEIGHT)
+
+    def show_clearance(self) -> None:
+        raise_dock(self, "Clearance", FAULTS_HEIGHT)
 
     def count_problems(self, count: int) -> None:
         self.docks["Problems"].setWindowTitle(f"Problems ({count})" if count else "Problems")

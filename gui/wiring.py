@@ -34,6 +34,7 @@ def connect(window: MainWindow) -> None:
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     _faults(window)
     _motion(window)
+    _clearance(window)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
     _pipeline(window)
     window.docks["Curve"].visibilityChanged.connect(window.curve_panel.set_in_front)
@@ -65,6 +66,7 @@ def _words(window: MainWindow) -> None:
         window.mesh,
         window.faults,
         window.motion,
+        window.clearance,
         window.light_tool,
         window.mapping_tool,
     ):
@@ -202,6 +204,23 @@ def _motion(window: MainWindow) -> None:
     window.docks["Motion"].visibilityChanged.connect(window.actions_.refresh)
     window.files.opened.connect(panel.document_opened)
     panel.listed.connect(window.actions_.refresh)
+
+
+def _clearance(window: MainWindow) -> None:
+    """A pair in the picture, a fault there and the tools that have the clicks give way to one another."""
+    panel = window.clearance
+    window.docks["Clearance"].visibilityChanged.connect(panel.set_in_front)
+    window.docks["Clearance"].visibilityChanged.connect(window.actions_.refresh)
+    window.files.opened.connect(panel.document_opened)
+    panel.said.connect(window.status.say)
+
+    def made() -> None:
+        assert panel.picture is not None
+        panel.picture.began.connect(window.faults.leave)
+        for tool in (window.measure, window.sight, window.draw, window.face_plane, window.engrave):
+            tool.began.connect(panel.leave)
+
+    panel.made.connect(made)
 
 
 def _drawing(window: MainWindow) -> None:

@@ -157,7 +157,7 @@ def test_the_wheel_holds_every_file_of_the_packages_and_nothing_else(tmp_path):
     expected = {
         "solidtree/" + path.relative_to(ROOT).as_posix()
         for path in files
-        if path.is_file() and "__pycache__" not in path.parts and path.suffix not in (".cpp", *BINARIES)
+        if path.is_file() and "__pycache__" not in path.parts and path.suffix not in (".cpp", ".h", *BINARIES)
     }
     compiled = {name for name in names if Path(name).suffix in BINARIES}
     assert names - compiled == expected

@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from manifold3d import Manifold
+from scipy.spatial.transform import Rotation
 
 from solidtree.model.measuring.distance import distance, nearest_on_triangles
 from solidtree.model.partition import native as partition_native
@@ -107,6 +108,77 @@ def test_nothing_and_no_points_have_answers():
     assert none.windings([(0, 0, 0)]).tolist() == [0]
     assert np.isinf(none.nearest([(0, 0, 0)]).distances).all()
     assert len(ball.windings(np.zeros((0, 3)))) == len(ball.nearest(np.zeros((0, 3))).distances) == 0
+
+
+@settings(deadline=None, max_examples=20)
+@given(st.integers(0, 10**6))
+def test_a_pose_moves_the_other_surface(seed):
+    rng = np.random.default_rng(seed)
+    one, other = rng.normal(size=(30, 3, 3)), rng.normal(size=(20, 3, 3)).round(1)
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.random(random_state=seed).as_matrix()
+    pose[:3, 3] = 5 * rng.normal(size=3)
+    there = BoxTree(other @ pose[:3, :3].T + pose[:3, 3])
+    moved, placed = BoxTree(one).gap(BoxTree(other), pose=pose), BoxTree(one).gap(there)
+    assert moved.length == pytest.approx(placed.length, abs=1e-11)
+    for point, mesh, face in ((moved.a, one, moved.faces[0]), (moved.b, there.triangles, moved.faces[1])):
+        assert nearest_on_triangles(point[None], mesh[face][None])[0] == pytest.approx(point, abs=1e-11)
+
+
+def test_a_search_that_begins_with_the_nearest_faces_or_with_others_ends_alike():
+    ball = triangles_of(Manifold.sphere(1, 32))
+    one, other = BoxTree(ball), BoxTree(ball + np.array((3, 0.4, 0.2)))
+    found = one.gap(other)
+    for first in (found.faces, (0, 0), (10**6, 0), (0, -1)):
+        again = one.gap(other, first=first)
+        assert (again.length, again.faces) == (found.length, found.faces)
+    assert one.gap(other, found.length / 2, first=found.faces).faces == (-1, -1)
+
+
+def test_below_a_limit_surfaces_without_trees_are_as_far_apart(way):
+    if way == "numpy":
+        pytest.skip("this is compiled only")
+    rng = np.random.default_rng(3)
+    kinds = (Manifold.sphere(5, 24), Manifold.cylinder(9, 4, 4, 24, True), Manifold.cube((7, 7, 7), True))
+    meshes = [
+        triangles_of(kinds[k % 3].rotate(rng.uniform(0, 360, 3).tolist())) + 20 * rng.random(3) for k in range(24)
+    ]
+    surfaces = [native.Surface(mesh.reshape(-1, 3), np.arange(3 * len(mesh)).reshape(-1, 3)) for mesh in meshes]
+    boxes_of = np.array([(mesh.min(axis=(0, 1)), mesh.max(axis=(0, 1))) for mesh in meshes])
+    pairs = np.array([(i, j) for i in range(24) for j in range(i)])
+    limits = rng.uniform(0, 6, len(pairs))
+    lengths, ends, faces = native.near(surfaces, boxes_of, pairs, limits)
+    assert np.isfinite(lengths).sum() > 50
+    for (one, other), limit, length, points, (left, right) in zip(pairs, limits, lengths, ends, faces, strict=True):
+        gap = BoxTree(meshes[one]).gap(BoxTree(meshes[other]), limit)
+        assert (length, left >= 0) == (pytest.approx(gap.length, abs=1e-12), gap.faces[0] >= 0)
+        if left >= 0:
+            assert np.linalg.norm(points[0] - points[1]) == pytest.approx(length, abs=1e-12)
+            on = nearest_on_triangles(points, np.array([meshes[one][left], meshes[other][right]]))
+            assert on == pytest.approx(points, abs=1e-12)
+
+
+def test_a_hundred_thousand_points_in_solids_with_formulas(way):
+    """A ball's chords lie a little within it, those of a tube between two radii: points near the walls are left out."""
+    count = 100_000 if way == "compiled" else 20_000
+    points = np.random.default_rng(5).uniform(-6, 6, (count, 3))
+    sag = 1 - np.cos(np.pi / 64)
+    far = np.linalg.norm(points, axis=1)
+    ball = BoxTree(triangles_of(Manifold.sphere(5, 64))).windings(points) > 0
+    clear = (far < 5 * (1 - 3 * sag)) | (far > 5)
+    assert (ball == (far < 5))[clear].all() and clear.mean() > 0.99
+    tube = BoxTree(triangles_of(Manifold.cylinder(8, 4, 4, 64, True) - Manifold.cylinder(9, 2, 2, 64, True)))
+    across = np.hypot(*points.T[:2])
+    held = (across < 4) & (across > 2) & (np.abs(points[:, 2]) < 4)
+    clear = ~(((across > 4 * (1 - sag)) & (across < 4)) | ((across > 2 * (1 - sag)) & (across < 2)))
+    assert ((tube.windings(points) > 0) == held)[clear].all() and clear.mean() > 0.99
+
+
+def test_a_surface_whose_corners_are_no_vertices_is_refused(way):
+    if way == "compiled":
+        for corners, points in (([[0, 1, 3]], np.zeros((3, 3))), ([[0, 1, 2]], np.full((3, 3), np.inf))):
+            with pytest.raises(ValueError, match="vertex"):
+                native.Surface(points, np.array(corners))
 
 
 def test_corners_that_are_no_numbers_are_refused(way):

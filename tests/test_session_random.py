@@ -109,6 +109,7 @@ def random_step(draw, document):
     ids = [node.id for node in walk(*document.roots)]
     ids = ids if sound and ids else [*ids, "gone"]
     one = lambda: draw.choice(ids)  # noqa: E731
+    solid = lambda: draw.choice([root.id for root in document.solids] or ids) if sound else one()  # noqa: E731
     many = lambda: draw.choices(ids, k=draw.randrange(1, 4) if sound else draw.randrange(4))  # noqa: E731
     flats = [node.id for node in walk(*document.roots) if is_outline(node, document.definitions)]
     some_outlines = lambda: draw.choices(flats, k=draw.choice([1, 2])) if flats else many()  # noqa: E731
@@ -132,6 +133,8 @@ def random_step(draw, document):
     changes = [
         lambda: ("turn", many(), draw.choice(["x", "z", vector]), number),
         lambda: ("turn", many(), "y", 30, vector),
+        lambda: ("set_clearance", number),
+        lambda: ("check_pair", solid(), solid(), *draw.choice([(), (0.5,), (None, True), (number,)])),
         lambda: ("scale", many(), draw.choice([2, 0.5, number])),
         lambda: ("shift", {one(): vector, one(): (1, 0, 0)}),
         lambda: ("set_fields", sized_id, vector, {field: value}),

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from ...model.editing.commands import Command
 
 if TYPE_CHECKING:
+    from ..tools.drag_contacts import Mode
     from ..window import MainWindow
 
 _MODES = (
@@ -15,6 +16,13 @@ _MODES = (
     ("turn", "Turn", "R", "Rings about the axes; or type the degrees about z and Enter, Tab for another axis"),
     ("scale", "Scale", "S", "Boxes along the node's own axes; or type a factor and Enter"),
     ("size", "Size", "D", "Handles on radius, height and sides alone"),
+)
+
+_CONTACTS: tuple[tuple[Mode, str, str, str], ...] = (
+    ("show", "Show contacts", "", "What a dragged part touches, overlaps or comes near to lights up"),
+    ("stop", "Stop at contact", "", "A part that is dragged stops where it meets another one"),
+    ("slide", "Slide along contacts", "Shift+K", "A part that is dragged slides along what it meets"),
+    ("off", "No contacts", "", "Parts are dragged through each other, and nothing is said"),
 )
 
 
@@ -45,4 +53,10 @@ HANDLE_COMMANDS: tuple[Command, ...] = (
     Command("snapping", "Snap to geometry", "Tools", lambda w: w.handles.set_snapping(not w.handles.snapping),
             icon="snap", tip="What is dragged goes to corners, middles, centres and edges; Ctrl leaves that out",
             checked=lambda w: w.handles.snapping),
+    *(
+        Command(f"contacts_{mode}", title, "Tools/Contacts while dragging",
+                lambda w, mode=mode: w.handles.contacts.set_mode(mode), shortcut=keys, tip=tip,
+                checked=lambda w, mode=mode: w.handles.contacts.mode == mode)
+        for mode, title, keys, tip in _CONTACTS
+    ),
 )  # fmt: skip

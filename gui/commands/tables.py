@@ -8,6 +8,7 @@ from ...model.editing.commands import DOCUMENT_COMMANDS
 from ...model.editing.tree_commands import TREE_COMMANDS
 from ..tree.edit_commands import EDIT_COMMANDS
 from .arrange import ARRANGE_COMMANDS
+from .clearance import CLEARANCE_COMMANDS
 from .curves import CURVE_COMMANDS
 from .draw_tools import DRAW_COMMANDS
 from .drawing import DRAWING_COMMANDS
@@ -59,6 +60,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (SIGHT_COMMANDS, window),
         (FAULT_COMMANDS, window),
         (MOTION_COMMANDS, window),
+        (CLEARANCE_COMMANDS, window),
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),
         (SURFACE_COMMANDS, window),

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from ...model.document.errors import Refusal
 from ...model.document.expression import Number, symbolic
+from ...model.document.placement import turn_about
 from ...model.operations.steps import combined, tidy
 from .entry import number_text
 
@@ -86,6 +87,10 @@ class Drag:
             if value is not None:
                 self.numbers[i] = value
 
+    def pose(self) -> Floats | None:
+        """The rigid motion (4, 4) of what is dragged, in the world; None where its shape changes."""
+        return None
+
     def call(self) -> Call | None:
         """The operation's name and arguments; None where nothing would change. Raises Refusal."""
         raise AssertionError(type(self).__name__)
@@ -137,6 +142,25 @@ class MoveDrag(Drag):
         self.numbers = [0.0, 0.0, 0.0]
         self.first = self._axes[0]
         self._start: Any = None
+        self._exact = False
+        """Whether the numbers are those of a place that is held, which rounding would leave."""
+
+    @property
+    def span(self) -> Floats:
+        """(k, 3) unit vectors, at right angles, along which things are moved."""
+        return self._frame.axes[list(self._axes)]
+
+    def way(self) -> Floats:
+        """(3,) how far things are moved, in the world."""
+        return np.array([self.resolve(value) for value in self.numbers]) @ self._frame.axes
+
+    def hold(self, way: Floats) -> None:
+        """Go so far (3,) instead."""
+        self.numbers = [tidy(value) for value in self._frame.axes @ way]
+        self._exact = True
+
+    def pose(self) -> Floats:
+        return np.block([[np.eye(3), self.way()[:, None]], [np.zeros(3), 1.0]])
 
     def begin(self, x: float, y: float) -> None:
         self._start = self._place(x, y)
@@ -157,6 +181,7 @@ class MoveDrag(Drag):
 
     def follow(self, pointer: Pointer) -> None:
         origin, rows = self._frame.origin, self._frame.axes
+        self._exact = False
         if pointer.target is not None:
             by, step = rows @ (pointer.target - origin), None
         else:
@@ -169,6 +194,7 @@ class MoveDrag(Drag):
 
     def take(self, typed: Sequence[Number | None]) -> None:
         """What is not typed stays where it was before the drag."""
+        self._exact = False
         self.numbers = [0.0 if value is None else value for value in typed]
 
     def call(self) -> Call | None:
@@ -176,7 +202,7 @@ class MoveDrag(Drag):
             return None
         rows = self._frame.axes
         by = tuple(self.numbers) if np.array_equal(rows, np.eye(3)) else combined(rows.T, self.numbers)
-        if not symbolic(by):
+        if not symbolic(by) and not self._exact:
             by = tuple(round(float(c), 9) + 0.0 for c in by)  # type: ignore[arg-type]
         return "move", (list(self._frame.ids), *by), self._frame.world
 
@@ -197,8 +223,27 @@ class TurnDrag(Drag):
         self._frame, self.axis = frame, axis
         self.numbers = [0.0, 0.0, 0.0]
         self.first = axis
+        self.origin = frame.origin
         self._grabbed: Floats | None = None
         self._last = 0.0
+
+    def angle(self) -> float:
+        """Degrees."""
+        return self.resolve(self.numbers[self.axis])
+
+    def hold(self, angle: float, before: float) -> None:
+        """Turn by so many degrees instead, rounded towards those of before."""
+        rounded = np.floor if angle > before else np.ceil
+        self.numbers[self.axis] = float(rounded(angle * 1e6) / 1e6) + 0.0
+
+    def turned(self, angle: float) -> Floats:
+        """The pose at an angle."""
+        return np.vstack((turn_about(tuple(self._frame.axes[self.axis]), angle, tuple(self.origin)), [0, 0, 0, 1]))
+
+    def pose(self) -> Floats | None:
+        frame = self._frame
+        own = frame.local and (not frame.alone or np.linalg.det(frame.axes) < 0.0)
+        return None if own or frame.mirrored else self.turned(self.angle())
 
     def begin(self, x: float, y: float) -> None:
         from ...render.handles.drag import grabbed_on_ring

@@ -13,12 +13,14 @@ from ...model.document.errors import Refusal
 from ...model.document.expression import resolved
 from ...model.editing.session import State
 from ...model.operations.operations import OPERATIONS
+from .drag_contacts import DragContacts
 from .entry import Entry
 from .tool import Tool
 
 if TYPE_CHECKING:
     from ...model.editing.session import Session
     from ...render.viewer import Viewer
+    from ..background import Background
     from ..settings import Settings
     from ..view.viewport import Viewport
     from .handle_drags import Drag
@@ -39,9 +41,17 @@ class Handles(Tool):
     """The mode is another, or other tools have the clicks now, or no more."""
 
     def __init__(
-        self, viewport: Viewport, session: Session, settings: Settings, half_spaces_seen: Callable[[], bool]
+        self,
+        viewport: Viewport,
+        session: Session,
+        settings: Settings,
+        half_spaces_seen: Callable[[], bool],
+        background: Background,
+        settled: Callable[[], bool],
     ) -> None:
         super().__init__(viewport)
+        self.contacts = DragContacts(settings, background, settled, self)
+        self.contacts.ready.connect(self._meet)
         self._half_spaces_seen = half_spaces_seen
         self._viewport, self._session, self._settings = viewport, session, settings
         self.mode = ""
@@ -117,11 +127,13 @@ class Handles(Tool):
     def attached(self, viewer: Viewer) -> None:
         from .handle_picture import HandlePicture
 
+        self.contacts.attached(viewer)
         self._picture = HandlePicture(viewer, self._half_spaces_seen)
         self._show()
 
     def closing(self) -> None:
         self._soon.stop()
+        self.contacts.closing()
         self._drag = self._entry = self._picture = None
 
     def session_changed(self, before: State, after: State) -> None:
@@ -135,7 +147,11 @@ class Handles(Tool):
 
     def shown(self) -> None:
         if self._drag is None:
+            self.contacts.rest(self._session.view)
             self._show()
+        else:
+            self.contacts.shown()
+            self._say("")
 
     def press(self, event: QMouseEvent) -> bool:
         if self._drag is not None and self._held:
@@ -269,6 +285,7 @@ class Handles(Tool):
         values = parameter_values(self._start.parameters)[0]
         drag.resolve = lambda value: float(resolved(value, values))
         self._entry = Entry(drag.names, drag.first)
+        self.contacts.begin(self._session.view, self._picture.gizmos.ids, drag)
         self._picture.begin(name if held else None)
         self._picture.go(x, y)
         self.hint.emit(f"{drag.label}: {KEYS}")
@@ -292,6 +309,7 @@ class Handles(Tool):
         self._soon.stop()
         self._drag = self._entry = self._start = self._pointer = None
         self._held = False
+        self.contacts.end()
         if self._picture is not None:
             self._picture.end()
         self.hint.emit("")
@@ -314,6 +332,7 @@ class Handles(Tool):
             return
         snap = self._picture.snap(self._name, x, y, self.snapping and not free)
         self._drag.follow(Pointer(x, y, free, fine, None if snap is None else np.array(snap.point)))
+        self.contacts.hold()
         self._attempt()
 
     def _typed(self) -> None:
@@ -336,6 +355,11 @@ class Handles(Tool):
             self._say(str(refusal))
             return
         self._preview(lambda: self._session.preview(document))
+        self._meet()
+
+    def _meet(self) -> None:
+        """Show what the dragged parts meet."""
+        self.contacts.follow()
         self._say("")
 
     def _preview(self, change: Callable[[], object]) -> None:
@@ -368,7 +392,9 @@ class Handles(Tool):
         """The numbers beside the pointer, and what is wrong with them."""
         if self._picture is not None and self._drag is not None and self._entry is not None:
             typing = self._entry.typing or not self._held
-            self._picture.say(self._entry.words(self._drag.shown()) if typing else self._drag.words(), fault)
+            words = self._entry.words(self._drag.shown()) if typing else self._drag.words()
+            met = self.contacts.words()
+            self._picture.say(f"{words}\n {met}" if met else words, fault)
             self._changed()
 
     def _changed(self) -> None:

@@ -316,8 +316,9 @@ def _written_out(roots: tuple[Node, ...]) -> int:
 
 
 def next_number(document: Document) -> int:
-    """The first number above those of all ids in the document."""
-    ids = (node.id[1:] for node in walk(*document.roots) if len(node.id) < 1000)
+    """The first number above those of all ids in the document, and of solids that are gone but had been checked."""
+    there = [node.id for node in walk(*document.roots)] + [end for pair in document.checks.pairs for end in pair.ends]
+    ids = (node_id[1:] for node_id in there if len(node_id) < 1000)
     return 1 + max((int(digits) for digits in ids if digits.isdecimal()), default=0)
 
 

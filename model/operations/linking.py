@@ -23,6 +23,7 @@ from ..document.tree import (
     unique_name,
     walk,
 )
+from .checks import copied_pairs, with_successors
 from .fonts import with_fonts_of
 from .parameters import declaring
 from .surfaces import joined_lights, with_like_materials
@@ -48,6 +49,7 @@ def link(document: Document, ids: Iterable[str] | str) -> Document:
             definition = node.with_(placement=Placement(), colour=None, visible=True, name=node.label)
             document = document.with_(definitions=(*document.definitions, definition))
         document = change(document, node_id, lambda node, instance=instance: instance)
+        document = with_successors(document, {node_id: instance.id})
     return document
 
 
@@ -110,8 +112,7 @@ def insert_document(document: Document, other: Document) -> Document:
     coming = iter((*named, *roots[len(named) :]))
     changes = {family: (*getattr(document, family), *(next(coming) for _ in getattr(other, family)))
                for family in FAMILIES}  # fmt: skip
-    pairs = [pair for pair in other.checks.pairs if renamed.keys() >= set(pair.ends)]
-    known_pairs = (*document.checks.pairs, *(replace(p, one=renamed[p.one], other=renamed[p.other]) for p in pairs))
+    known_pairs = (*document.checks.pairs, *copied_pairs(other.checks.pairs, renamed))
     motions = [*document.motions]
     for motion in other.motions:
         motions.append(motion.with_(name=unique_name(motion.name, [one.name for one in motions])))

@@ -17,6 +17,7 @@ from ..document.nodes import Instance, field_specs
 from ..document.outlines import Outlines
 from ..document.tree import change, change_each, find, listed, outermost, parent
 from .arranging import shift
+from .checks import check_pair, set_clearance
 from .curves.bending import bend_segment
 from .curves.contours import (
     add_contour,
@@ -194,6 +195,7 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         add_motion, set_motion, rename_motion, delete_motion, set_in_motion,
         add_material, set_material, rename_material, delete_material, use_material, set_mapping,
         set_crease, add_light, set_light, rename_light, delete_light, set_shading,
+        set_clearance, check_pair,
         engrave, carry_font, release_font, copy_font, edit_glyphs, transform_glyphs, reset_glyphs,
         convert_to_mesh, repair_mesh, close_mesh_holes, split_mesh_edge, flip_mesh_edge, collapse_mesh_edge,
         split_mesh_face, delete_mesh_faces, reverse_mesh_faces, move_mesh_vertices,

@@ -11,6 +11,8 @@ from ..document.nodes import Instance, Node
 from ..document.outlines import Outlines
 from ..document.placement import Placement
 from ..document.tree import change_each, family_of, next_number, numbered, outermost, put, trail, trails, walk
+from ..proximity.checks import Checks
+from .checks import copied_pairs
 from .fitting import carried_into, check_fit, check_tree, named_apart, steps_above
 from .linking import check_definitions, used_definitions
 from .parameters import declaring
@@ -18,13 +20,15 @@ from .surfaces import with_like_materials
 
 
 def clip(document: Document, ids: Sequence[str]) -> Document:
-    """The nodes as solids and profiles at their places in space, with the definitions and parameters that they need.
+    """The nodes as solids and profiles at their places in space, with the definitions and parameters that they need,
+    and what is asked of pairs of them.
 
     Of a definition it is an instance.
     """
     roots = {root.id: root for root in document.definitions}
     nodes: list[Node] = []
-    for node_id, (*way, node) in trails(document, outermost(document, ids)).items():
+    ways = trails(document, outermost(document, ids))
+    for node_id, (*way, node) in ways.items():
         if node_id in roots:
             node = Instance(definition=node_id, name=node.label)
         elif not (way and way[0].id in roots):  # a definition has no one place in space
@@ -40,6 +44,7 @@ def clip(document: Document, ids: Sequence[str]) -> Document:
     definitions = tuple(root for root in document.definitions if root.id in needed)
     # An instance of a node that is copied too would give its id away twice.
     roots = numbered(nodes, next_number(document))
+    pairs = copied_pairs(document.checks.pairs, {old: new.id for old, new in zip(ways, roots, strict=True)})
     flat = Outlines(document.definitions)
     families: dict[str, list[Node]] = {"solids": [], "profiles": []}
     for root in roots:
@@ -47,7 +52,8 @@ def clip(document: Document, ids: Sequence[str]) -> Document:
     worn = {node.material for node in walk(*roots, *definitions)}
     return Document(solids=tuple(families["solids"]), profiles=tuple(families["profiles"]), definitions=definitions,
                     parameters=_used_parameters(document, roots + definitions),
-                    materials=tuple(material for material in document.materials if material.name in worn))  # fmt: skip
+                    materials=tuple(material for material in document.materials if material.name in worn),
+                    checks=Checks(pairs=pairs))  # fmt: skip
 
 
 def _used_parameters(document: Document, roots: tuple[Node, ...]) -> tuple[Parameter, ...]:
@@ -97,6 +103,9 @@ def paste(document: Document, other: Document, parent_id: str | None = None, ind
     check_definitions(document, nodes, parent_id)
     if not way:
         nodes = named_apart(document, nodes)
+        copies = {old.id: new.id for old, new in zip(other.standing, nodes, strict=True)}
+        pairs = (*document.checks.pairs, *copied_pairs(other.checks.pairs, copies))
+        document = document.with_(checks=document.checks.with_(pairs=pairs))
     elif way[0].id not in here:
         nodes = [carried_into(node, steps_above(way)) for node in nodes]
     return put(document, nodes, parent_id, index)

@@ -24,6 +24,7 @@ from ..document.tree import (
     trail,
     trails,
 )
+from .checks import copied_pairs
 from .fitting import carried, check_fit, check_free, check_left, named_apart, root_name
 from .linking import check_definitions
 
@@ -163,11 +164,13 @@ def duplicate(document: Document, ids: Sequence[str]) -> Document:
     copies = numbered([way[-1] for way in ways.values()], next_number(document))
     beside = dict(zip(ways, copies, strict=True))
     roots = [node_id for node_id, way in ways.items() if len(way) == 1]
+    pairs = copied_pairs(document.checks.pairs, {node_id: beside[node_id].id for node_id in roots})
     beside |= zip(roots, named_apart(document, [beside[node_id] for node_id in roots]), strict=True)
 
     def doubled(family: tuple[Node, ...]) -> tuple[Node, ...]:
         return tuple(one for node in family for one in (node, beside.get(node.id)) if one is not None)
 
     if roots:
-        document = document.with_(solids=doubled(document.solids), profiles=doubled(document.profiles))
+        checks = document.checks.with_(pairs=(*document.checks.pairs, *pairs))
+        document = document.with_(solids=doubled(document.solids), profiles=doubled(document.profiles), checks=checks)
     return change_each(document, above, lambda node: node.with_(children=doubled(node.children)))

@@ -41,6 +41,7 @@ from ..document.tree import (
     trails,
     walk,
 )
+from .checks import with_successors
 from .fitting import (
     carried,
     carried_into,
@@ -84,7 +85,7 @@ def replace(document: Document, node_id: str, node: Node) -> Document:
     name = fresh.name or old.name
     if above is None:
         name = root_name(document, name, [node_id])
-    return change(document, node_id, lambda old: fresh.with_(name=name))
+    return with_successors(change(document, node_id, lambda old: fresh.with_(name=name)), {node_id: fresh.id})
 
 
 def _coming(document: Document, node: Node, parent_id: str | None) -> tuple[Document, Node]:
@@ -150,7 +151,8 @@ def combine(document: Document, kind: str, ids: Sequence[str], name: str = "") -
     if above is None:
         new = new.with_(name=root_name(document, new.label, ids))
     check_fit(above, new, flat)
-    return change_each(document, ids, lambda node: new if node.id == ids[0] else None)
+    document = change_each(document, ids, lambda node: new if node.id == ids[0] else None)
+    return with_successors(document, {ids[0]: new.id})
 
 
 def dissolve(document: Document, ids: Sequence[str] | str) -> Document:
@@ -190,7 +192,7 @@ def _dissolved(document: Document, node_id: str) -> Document:
     freed = [child.with_(name=names.take(child.label)) for child in freed]
     home = next(family for family in FAMILIES if any(root is node for root in getattr(document, family)))
     place = next(i for i, root in enumerate(getattr(document, home)) if root is node)
-    without = change(document, node_id, lambda node: None)
+    without = with_successors(change(document, node_id, lambda node: None), {node_id: freed[0].id})
     return put(without, freed, None, place if home == family_of(freed[0], flat) else None)
 
 

@@ -669,7 +669,7 @@ void copied(const std::vector<T>& from, T* to) {
 // The border. A handle is what a build made; its sizes are asked for, its arrays copied out, and then it is freed.
 
 // Raised by one with every change of what follows; native.py asks for its own.
-BSP_API int32_t bsp_interface() { return 3; }
+BSP_API int32_t bsp_interface() { return 4; }
 
 BSP_API int32_t bsp_build(const FacesView* faces, double epsilon, Progress progress, void** handle) {
     *handle = nullptr;

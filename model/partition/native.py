@@ -1,4 +1,4 @@
-"""The compiled code, bsp.cpp and proximity.cpp: loaded through ctypes where it was built, and nothing elsewhere.
+"""The compiled code, of the .cpp files here: loaded through ctypes where it was built, and nothing elsewhere.
 
 The environment variable SOLIDTREE_COMPILED=0 leaves it out. ctypes lets other threads run during its calls.
 """
@@ -20,7 +20,7 @@ from .tree import EPSILON, Tree, empty_tree
 
 Numbers = NDArray[np.int64]
 
-INTERFACE = 3
+INTERFACE = 4
 """What bsp_interface answers; one that was left over from before is not used."""
 
 _REPORT = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int64, ctypes.c_int64)
@@ -101,6 +101,7 @@ def _declared(compiled: ctypes.CDLL) -> ctypes.CDLL:
         ("proximity_near", _NUMBER, (*4 * (_ADDRESS,), _COUNT, _ADDRESS, _ADDRESS)),
         ("proximity_nearest", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, ctypes.c_double, _ADDRESS, _ADDRESS, _ADDRESS)),
         ("proximity_pieces", None, (_ADDRESS, _COUNT, _COUNT, _ADDRESS)),
+        ("proximity_sweep", _NUMBER, (*5 * (_ADDRESS,), ctypes.c_double, _ADDRESS, _ADDRESS)),
         ("proximity_windings_of", None, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),
         ("proximity_windings", _NUMBER, (_ADDRESS, _ADDRESS, _COUNT, _ADDRESS)),
     ):

@@ -1,59 +1,21 @@
 // A tree of boxes over triangles, compiled: building it, the distance of two surfaces, one of them moved if asked, the
-// nearest points of a surface, and how often it winds round points. The same as model/proximity has it in NumPy; boxes.py there says what the arrays
-// hold, native.py calls this through ctypes. The rules of bsp.cpp hold here, too.
+// nearest points of a surface, and how often it winds round points. The same as model/proximity has it in NumPy; boxes.py
+// there says what the arrays hold, native.py calls this through ctypes. The rules of bsp.cpp hold here, too.
+
+#include "boxes.h"
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
 #include <exception>
-#include <limits>
 #include <new>
 #include <thread>
 #include <utility>
 #include <vector>
 
-#if defined(_WIN32)
-#define PROXIMITY_API extern "C" __declspec(dllexport)
-#else
-#define PROXIMITY_API extern "C" __attribute__((visibility("default")))
-#endif
-
 namespace {
-
-struct Vec {
-    double x, y, z;
-};
-
-// A box along the axes of what it holds: its middle, its axes as unit vectors, and half of its length along each.
-struct Oriented {
-    Vec middle, axes[3];
-    double half[3];
-};
-
-// What crosses the border; native.py declares the same. A node has `link[2]` triangles, from place `link[1]` of `order`
-// on; an inner one's children are `link[0]` and the one after it, a leaf has -1 there. `oriented` and `states` are filled
-// as they are needed, by whoever comes first: see `oriented_box`.
-struct BoxTree {
-    const double* triangles;  // (n, 3, 3)
-    const int32_t* order;     // (n,)
-    const double* boxes;      // (nodes, 6): low, high
-    const int32_t* links;     // (nodes, 3)
-    Oriented* oriented;       // (nodes,), 15 numbers each
-    uint8_t* states;          // (nodes,)
-    int64_t nodes;
-};
 
 constexpr int LEAF = 3;
 constexpr int64_t PAIRS = 16;  // for which another thread is worth its start
-constexpr double INFINITE = std::numeric_limits<double>::infinity();
-
-inline Vec at(const double* p) { return {p[0], p[1], p[2]}; }
-inline Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Vec operator*(double s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
-inline double dot(Vec a, Vec b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline Vec cross(Vec a, Vec b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 
 // The nearest pair of points found so far, the triangles that they are on, and the unit vector from one to the other; at
 // first the limit, and a direction from the first surface to the second.
@@ -176,13 +138,6 @@ inline double gap_to(const double* box, Vec p) {
     }
     return square;
 }
-
-inline void corners_of(const BoxTree& tree, int32_t triangle, Vec* t) {
-    const double* from = tree.triangles + 9 * int64_t(triangle);
-    for (int k = 0; k < 3; ++k) t[k] = at(from + 3 * k);
-}
-
-inline double part(Vec v, int k) { return k == 0 ? v.x : k == 1 ? v.y : v.z; }
 
 // The eigenvectors of a symmetric matrix, by Jacobi's rotations (1846).
 void eigenvectors(double m[3][3], Vec axes[3]) {

@@ -1,4 +1,4 @@
-"""The compiled half of this folder, partition/proximity.cpp: the boxes of triangles, and what is asked of them."""
+"""The compiled half of this folder, partition/proximity.cpp and sweep.cpp: boxes of triangles and what they tell."""
 
 from __future__ import annotations
 
@@ -99,6 +99,20 @@ def nearest(tree: Tree, points: Floats, limit: float) -> tuple[Floats, Floats, N
     return distances, places, faces.astype(np.int64)
 
 
+def sweep(
+    moving: Tree, exact: Floats, standing: Tree, by: Floats, along: Floats, limit: float
+) -> tuple[float, Floats, Floats, tuple[int, int]]:
+    """See `straight.Sweep`; all arrays are contiguous, `moving` is the tree of `exact` (n, 3, 3) when shrunk."""
+    found, faces = np.empty(7), np.empty(2, np.int32)
+    _check(
+        library().proximity_sweep(
+            moving.view, exact.ctypes.data, standing.view, by.ctypes.data, along.ctypes.data, limit,
+            found.ctypes.data, faces.ctypes.data,
+        )
+    )  # fmt: skip
+    return float(found[0]), found[1:4], found[4:], (int(faces[0]), int(faces[1]))
+
+
 def windings(tree: Tree, points: Floats) -> Numbers:
     """See `boxes.BoxTree.windings`; points (n, 3) are contiguous."""
     found = np.empty(len(points), np.int32)
@@ -126,4 +140,4 @@ def _check(status: int) -> None:
         raise MemoryError("there is not enough memory for what surfaces are asked")
 
 
-__all__ = ["Surface", "Tree", "available", "distance", "near", "nearest", "pieces", "windings", "windings_of"]
+__all__ = ["Surface", "Tree", "available", "distance", "near", "nearest", "pieces", "sweep", "windings", "windings_of"]

@@ -16,6 +16,7 @@ from .messages import (
     FaultsFound,
     LaneMessage,
     MotionPlayed,
+    PairsChecked,
     Partitioned,
     Progress,
 )
@@ -72,6 +73,8 @@ class Answers:
                 self._tell(FaultsFound(number, found))
             case ("played", number, played):
                 self._tell(MotionPlayed(number, played))
+            case ("pairs", number, report):
+                self._tell(PairsChecked(number, report))
             case ("refused", _, reason):
                 self.refuse(job, reason)
             case ("superseded" | "prepared", _):
@@ -92,6 +95,8 @@ class Answers:
             self._tell(FaultsFound(job.number, None, reason))
         elif job.word == "play":
             self._tell(MotionPlayed(job.number, None, reason))
+        elif job.word == "pairs":
+            self._tell(PairsChecked(job.number, None, reason))
         elif job.word == "evaluate":
             self._tell(Evaluated(job.number, Shown({}, {}, (Message("", "", reason, True),)), 0.0, 0))
 

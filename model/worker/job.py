@@ -53,6 +53,8 @@ def request_of(job: Job, pictures: set[bytes], surfaces: set[bytes]) -> tuple[An
         return "faults", job.number, table, job.tolerance, job.ids
     if job.word == "play":
         return "play", job.number, table, job.tolerance, job.solid, job.between
+    if job.word == "pairs":
+        return "pairs", job.number, table, job.tolerance
     return "export", job.number, table, job.path, job.tolerance, job.solid, job.section
 
 

@@ -115,9 +115,7 @@ class Lane:
 
     def stop_drawing(self) -> None:
         """Give up the page that is being drawn, or waits; no answer comes."""
-        with self._lock:
-            self._waiting.stop("draw", self._number)
-        self._wake()
+        self._stop("draw")
 
     def find_faults(self, document: Document, ids: tuple[str, ...], tolerance: float) -> int:
         """Ask for the faults of these nodes within a tolerance in mm, of all that is visible where there are none; the
@@ -127,9 +125,17 @@ class Lane:
 
     def stop_finding(self) -> None:
         """Give up the faults that are looked for, or wait; no answer comes."""
-        with self._lock:
-            self._waiting.stop("faults", self._number)
-        self._wake()
+        self._stop("faults")
+
+    def check_pairs(self, document: Document, tolerance: float) -> int:
+        """Ask which pairs of visible solids are not as the document asks; the answer is a PairsChecked. A newer
+        question takes its place. Pairs that are as they were at the last one are not looked at again.
+        """
+        return self._ask("pairs", document, tolerance)
+
+    def stop_checking_pairs(self) -> None:
+        """Give up the pairs that are checked, or wait; no answer comes."""
+        self._stop("pairs")
 
     def play(self, document: Document, motion: str, tolerance: float, between: bool = False) -> int:
         """Ask for a motion of the document step by step, `between` them too; the answer is a MotionPlayed. A newer
@@ -181,6 +187,11 @@ class Lane:
             self._waiting.put(Job(number, word, document, tolerance, **particulars))
         self._wake()
         return number
+
+    def _stop(self, word: str) -> None:
+        with self._lock:
+            self._waiting.stop(word, self._number)
+        self._wake()
 
     def _wake(self) -> None:
         if not self._closed:

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from ..checking.document_faults import NodeFaults
     from ..drafting.page import Page
     from ..partition.tree import Tree
+    from ..proximity.findings import Report
     from ..proximity.moving.playing import Played
 
 
@@ -97,6 +98,15 @@ class MotionPlayed:
 
 
 @dataclass(frozen=True, slots=True)
+class PairsChecked:
+    """The answer to `Lane.check_pairs`; or `fault`, why there is none."""
+
+    request: int
+    report: Report | None
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Cancelled:
     """The request was given up because the user asked for it."""
 
@@ -122,6 +132,7 @@ LaneMessage = (
     | Drawn
     | FaultsFound
     | MotionPlayed
+    | PairsChecked
     | Cancelled
     | Died
 )

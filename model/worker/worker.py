@@ -28,12 +28,16 @@ from .shown import Message, shown_key
 if TYPE_CHECKING:
     from ..drafting.drawn import Draughts
     from ..drafting.plan import Plan
+    from ..proximity.memo import PairMemo
 
 INTERVAL = 0.1
 """Seconds between two reports of progress."""
 NICENESS = 5
 """How far the worker stands back, in the steps of Unix."""
 SORTING = "Sorting faces"
+PAIRS = "Pairs of solids"
+MOST_FINDINGS = 5000
+"""Of pairs, that are told: more than anybody reads through."""
 
 
 def work(connection: Connection, store_folder: str) -> None:
@@ -73,6 +77,7 @@ class _Worker:
         self._resolver = Resolver()
         self._reuse: Reuse = {}
         self._draughts: tuple[tuple[Any, ...], Draughts] | None = None
+        self._pair_memo: PairMemo | None = None
 
     def answer(self, request: tuple[Any, ...]) -> None:
         word, number, *arguments = request
@@ -205,6 +210,24 @@ class _Worker:
             number,
             play(from_table(table), motion, tolerance, _Progress(self._connection, number, 1).tell, between),
         )
+
+    def _pairs(self, number: int, table: dict[str, Any], tolerance: float) -> tuple[Any, ...]:
+        from ..proximity.checking import check_document
+        from ..proximity.memo import PairMemo
+
+        if self._pair_memo is None:
+            self._pair_memo = PairMemo(self._evaluator, self._resolver)
+        progress = _Progress(self._connection, number, len(table["nodes"]))
+        report = check_document(
+            from_table(table, self._reuse),
+            tolerance,
+            memo=self._pair_memo,
+            progress=progress,
+            told=lambda done, total: progress.tell(done, total, PAIRS),
+            bodies=True,
+            most=MOST_FINDINGS,
+        )
+        return "pairs", number, report
 
 
 class _Progress:

@@ -18,7 +18,7 @@ from ...solid.evaluate import Evaluator
 from ...solid.results import result_of
 from ...worker.shown import Message
 from ..bodies import Body
-from ..checking import body_of
+from ..memo import body_of
 from ..motion import Motion
 from .moved import corners_of
 from .screws import RIGID
