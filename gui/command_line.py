@@ -198,6 +198,8 @@ _COMMANDS: dict[str, tuple[Callable[[argparse.ArgumentParser], None], Callable[[
          "the saved sets of parameter values, as JSON of OpenSCAD's customizer, or as CSV"),
         ("check", "check", "add_options", "check",
          "solids that overlap or come nearer to each other than a clearance, as JSON"),
+        ("motion", "motion", "add_options", "motion",
+         "a timed motion: the first contact, and with --contacts those of each step, as JSON"),
         ("ray", "ray", "add_options", "ray", "the first face on a ray, or whether two points see each other, as JSON"),
         ("sight", "sight", "add_options", "sight",
          "whether two points see each other, or how much of a part or a face is seen from a point, as JSON"),
