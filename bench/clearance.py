@@ -18,7 +18,7 @@ from solidtree.model.partition.build import build
 from solidtree.model.partition.faces import faces_of_polygons
 from solidtree.model.partition.rays import Rays
 from solidtree.model.partition.sight import inside as within
-from solidtree.model.proximity.bodies import OVERLAPPING, Body, clashes, overlap_of
+from solidtree.model.proximity.bodies import OVERLAPPING, Body, Relation, overlap_of, relations
 from solidtree.model.proximity.boxes import BoxTree
 from solidtree.model.solid.results import arrays_of
 
@@ -65,6 +65,13 @@ def near_pairs(bodies: list[Body]) -> list[tuple[int, int]]:
     return sorted(map(tuple, np.sort(np.concatenate(found), axis=1).tolist()))
 
 
+def checked(bodies: list[Body]) -> dict[tuple[int, int], Relation]:
+    """The pairs that overlap or come nearer than the clearance."""
+    pairs = near_pairs(bodies)
+    known = relations(bodies, pairs, [CLEARANCE] * len(pairs))
+    return {pair: relation for pair, relation in zip(pairs, known, strict=True) if relation is not None}
+
+
 def by_fcl(bodies: list[Body], pairs: list[tuple[int, int]]) -> dict[tuple[int, int], float] | None:
     try:
         import fcl
@@ -92,11 +99,8 @@ def main() -> None:
     bodies = [body(solid) for solid in solids]
     pairs = near_pairs(bodies)
     arrays = [(one.vertices, one.triangles) for one in bodies]
-    ours, found = best(
-        lambda: clashes([Body("", *some, solid) for some, solid in zip(arrays, solids, strict=True)], CLEARANCE)
-    )
-    again, _ = best(lambda: clashes(bodies, CLEARANCE))
-    near = {(clash.one, clash.other): clash.relation for clash in found}
+    ours, near = best(lambda: checked([Body("", *some, solid) for some, solid in zip(arrays, solids, strict=True)]))
+    again, _ = best(lambda: checked(bodies))
     overlapping = [pair for pair, relation in near.items() if relation.kind == OVERLAPPING]
     volumes, _ = best(lambda: [overlap_of(bodies[i], bodies[j]).volume() for i, j in overlapping])
     gap_time, theirs = best(lambda: {(i, j): solids[i].min_gap(solids[j], CLEARANCE) for i, j in pairs})

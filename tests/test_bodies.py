@@ -6,7 +6,7 @@ from manifold3d import Manifold
 
 from solidtree.model.document.errors import Refusal
 from solidtree.model.measuring.distance import distance as nearest_triangles
-from solidtree.model.proximity.bodies import Body, clashes, relation
+from solidtree.model.proximity.bodies import Body, relation, relations
 from solidtree.model.script import (
     box,
     circle,
@@ -78,17 +78,16 @@ def test_open_and_empty_surfaces():
     assert (found.kind, found.gap, found.overlap) == ("apart", 20, None)
     assert relation(sheet, body(Manifold.cube((1, 1, 1)).translate((5, 5, 5)))).kind == "apart"  # nothing is inside it
     empty = Body("nothing", np.zeros((0, 3)), np.zeros((0, 3), int))
-    assert relation(sheet, empty) is None and clashes([sheet, empty]) == []
+    assert relation(sheet, empty) is None
 
 
-def test_clashes_come_worst_first_and_touching_counts_only_with_a_clearance():
-    bodies = [body(CUBE.translate((x, 0, 0))) for x in (0, 9, 19, 29.4, 60)]
-    bare = clashes(bodies)
-    assert [(c.one, c.other, c.relation.kind) for c in bare] == [(0, 1, "overlapping")]
-    near = clashes(bodies, 0.5)
-    assert [(c.one, c.other, round(c.relation.gap, 9)) for c in near] == [(0, 1, 0), (1, 2, 0), (2, 3, 0.4)]
-    assert [(c.one, c.other) for c in clashes(bodies, 0.5, apart=[(1, 0)])] == [(1, 2), (2, 3)]
-    assert clashes(bodies, 0.4)[-1].relation.gap == 0  # a gap as wide as the clearance is wide enough
+def test_pairs_are_judged_together_each_below_its_own_limit():
+    bodies = [body(CUBE.translate((x, 0, 0))) for x in (0, 9, 19, 29.4)]
+    pairs = [(0, 1), (1, 2), (2, 3), (2, 3), (0, 3)]
+    found = relations(bodies, pairs, [0.0, 0.0, 0.5, 0.4, 5.0])
+    kinds = [one and one.kind for one in found]
+    assert kinds == ["overlapping", "touching", "apart", None, None]  # a gap as wide as the limit is wide enough
+    assert found[2].gap == pytest.approx(0.4)
 
 
 def test_all_pairs_of_a_crowd_are_those_of_brute_force():
@@ -98,7 +97,9 @@ def test_all_pairs_of_a_crowd_are_those_of_brute_force():
         .translate(rng.uniform(0, 5, 3).tolist()) for k in range(13)
     ]  # fmt: skip
     bodies = [body(solid) for solid in solids]
-    found = {(c.one, c.other): c.relation for c in clashes(bodies, 0.6)}
+    pairs = [(i, j) for i in range(13) for j in range(i + 1, 13)]
+    known = relations(bodies, pairs, [0.6] * len(pairs))
+    found = {pair: one for pair, one in zip(pairs, known, strict=True) if one is not None}
     for i in range(13):
         for j in range(i + 1, 13):
             shared = (solids[i] ^ solids[j]).volume()
@@ -115,7 +116,7 @@ def test_progress_is_told_and_may_stop():
 
     bodies = [body(CUBE), body(CUBE)]
     with pytest.raises(KeyboardInterrupt):
-        clashes(bodies, told=stop)
+        relations(bodies, [(0, 1)], [0.0], stop)
 
 
 def test_scripts_ask_in_the_same_words():

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -10,7 +10,6 @@ import numpy as np
 from manifold3d import Manifold, OpType
 from numpy.typing import NDArray
 
-from ..mesh.faults.box_pairs import meeting
 from ..mesh.pieces import pieces
 from . import native
 from .boxes import BoxTree, Floats
@@ -198,45 +197,3 @@ def overlap_of(one: Body, other: Body) -> Manifold:
     """What two closed bodies share."""
     assert one.solid is not None and other.solid is not None
     return Manifold.batch_boolean([one.solid, other.solid], OpType.Intersect)
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Clash:
-    """Two bodies by their places in the list that was looked at, and how they stand to each other."""
-
-    one: int
-    other: int
-    relation: Relation
-
-
-def clashes(
-    bodies: Sequence[Body],
-    clearance: float = 0.0,
-    apart: Iterable[tuple[int, int]] = (),
-    told: Callable[[int, int], None] | None = None,
-) -> list[Clash]:
-    """The pairs that overlap or whose gap is below the clearance, in mm: overlaps first, the largest foremost, then by
-    gap. Where the clearance is 0 those that only touch are none.
-
-    Pairs in `apart` are left out. `told` hears how many of the pairs whose boxes are near have been looked at, and may
-    raise to stop.
-    """
-    some = [k for k, body in enumerate(bodies) if not body.empty]
-    if len(some) < 2:
-        return []
-    boxes = np.array([bodies[k].bounds for k in some])
-    reach = clearance / 2.0 * (1.0 + 1e-9)
-    skipped = {(min(pair), max(pair)) for pair in apart}
-    near: list[tuple[int, int]] = []
-    for left, right in meeting(boxes[:, 0] - reach, boxes[:, 1] + reach):
-        pairs = np.sort(np.array(some)[np.column_stack((left, right))], axis=1)
-        near += [pair for pair in map(tuple, pairs.tolist()) if pair not in skipped]
-    near.sort()
-    known = relations(bodies, near, [clearance] * len(near), told)
-    found = [
-        Clash(one, other, relation)
-        for (one, other), relation in zip(near, known, strict=True)
-        if relation is not None and (relation.kind != TOUCHING or clearance > 0.0)
-    ]
-    found.sort(key=lambda clash: (clash.relation.gap, -(clash.relation.overlap or 0.0), clash.one, clash.other))
-    return found
