@@ -4,7 +4,7 @@ it is made before it is looked at."""
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QInputDialog, QVBoxLayout, QWidget
@@ -152,7 +152,7 @@ class ClearancePanel(QWidget):
         self._follow()
 
     def _ask_of(self, one: str, other: str, clearance: float | None = None, touching: bool = False) -> None:
-        more = {"clearance": clearance} if clearance is not None else {"touching": True} if touching else {}
+        more: dict[str, Any] = {"clearance": clearance} if clearance is not None else {"touching": touching}
         self._do("check_pair", one, other, label="Meant to touch" if touching else "Clearance of a pair", **more)
 
     def _ask_clearance(self, pair: Finding | PairCheck) -> None:
@@ -178,7 +178,7 @@ class ClearancePanel(QWidget):
         dialog.textValueSelected.connect(answered)
         dialog.open()
 
-    def _do(self, name: str, *arguments: object, label: str, **more: object) -> None:
+    def _do(self, name: str, *arguments: Any, label: str, **more: Any) -> None:
         try:
             self._window.session.do(name, *arguments, label=label, **more)
         except Refusal as refusal:

@@ -117,7 +117,7 @@ def relation(one: Body, other: Body, limit: float = np.inf) -> Relation | None:
         return None
     near = _meeting(one, other)
     gap = one.tree.gap(other.tree, max(limit, 2.0 * near))
-    return _relation(one, other, gap.length, np.array([gap.a, gap.b]), limit, near)
+    return judged(one, other, gap.length, np.array([gap.a, gap.b]), limit, near)
 
 
 def _meeting(one: Body, other: Body) -> float:
@@ -125,7 +125,7 @@ def _meeting(one: Body, other: Body) -> float:
     return MEETING * 2.0 * max(float(np.abs(one.bounds).max()), float(np.abs(other.bounds).max()))
 
 
-def _relation(one: Body, other: Body, gap: float, ends: Floats, limit: float, near: float) -> Relation | None:
+def judged(one: Body, other: Body, gap: float, ends: Floats, limit: float, near: float) -> Relation | None:
     """See `relation`; of the gap between the two surfaces, where it is below the limit, with its ends (2, 3). They meet
     where it is at most `near`."""
     meets = gap <= near
@@ -189,7 +189,7 @@ def relations(
         for (one, other), asked_for, *rest in zip(
             rows.tolist(), some.tolist(), gaps.tolist(), points, most.tolist(), near.tolist(), strict=True
         ):
-            known.append(_relation(bodies[one], bodies[other], *rest) if asked_for else None)
+            known.append(judged(bodies[one], bodies[other], *rest) if asked_for else None)
     return known
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from ..bodies import APART, MEETING, Body, Relation, _relation
+from ..bodies import APART, MEETING, Body, Relation, judged
 
 Floats = NDArray[np.float64]
 
@@ -72,7 +72,7 @@ def relation_moved(
         within = gap.length < limit - near
         shared = 0.0 if one.closed and other.closed else None
         return Stand(Relation(APART, gap.length, ends, shared) if within else None, ends, gap.faces)
-    return Stand(_relation(one, moved_body(other, pose), gap.length, ends, limit, near), ends, gap.faces)
+    return Stand(judged(one, moved_body(other, pose), gap.length, ends, limit, near), ends, gap.faces)
 
 
 def _boxes_apart(one: Body, other: Body, pose: Floats) -> bool:
