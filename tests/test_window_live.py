@@ -8,8 +8,8 @@ from replay import replayed
 
 from solidtree.model.document.table import same_document
 from solidtree.model.proximity.bodies import relation
-from solidtree.model.proximity.checking import body_of
 from solidtree.model.proximity.checks import Checks
+from solidtree.model.proximity.memo import body_of
 from solidtree.model.script import box, document_of, sphere
 from solidtree.model.solid.results import evaluate_document
 from solidtree.render.camera import project
