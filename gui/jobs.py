@@ -40,6 +40,9 @@ class Jobs(QObject):
     """A NodeFaults (model/checking/document_faults.py) for each node that `find_faults` was asked for last; or None,
     and why there are none."""
     faults_progress = Signal(int, int, str)
+    played = Signal(object, str)
+    """The Played (model/proximity/moving/playing.py) that `play` was asked for last; or None, and why there is none."""
+    playing_progress = Signal(int, int, str)
     pairs_checked = Signal(object, str)
     """The Report (model/proximity/findings.py) that `check_pairs` was asked for last; or None, and why there is not."""
     pairs_progress = Signal(int, int, str)
@@ -56,6 +59,7 @@ class Jobs(QObject):
         self._ahead = False  # nobody waits for the partition
         self._drawing: int | None = None
         self._finding: int | None = None
+        self._playing: int | None = None
         self._pairs: int | None = None
         self.lane: Lane | None = None
 
@@ -131,6 +135,20 @@ class Jobs(QObject):
             self._finding = None
             self.lane.stop_finding()
 
+    def play(self, document: Document, motion: str, tolerance: float, between: bool = False) -> None:
+        """Look at a motion step by step, instead of the one asked for before; `played` brings it."""
+        self._playing = self._started().play(document, motion, tolerance, between)
+
+    def stop_playing(self) -> None:
+        """Give up looking at a motion; `played` does not come."""
+        if self._playing is not None and self.lane is not None:
+            self._playing = None
+            self.lane.stop_playing()
+
+    @property
+    def playing(self) -> bool:
+        return self._playing is not None
+
     @property
     def finding(self) -> bool:
         return self._finding is not None
@@ -152,13 +170,15 @@ class Jobs(QObject):
 
     def cancel(self) -> None:
         """Give up all of it."""
-        waited_for = self._drawing is not None or self.finding or self.checking_pairs
+        waited_for = self._drawing is not None or self.finding or self.checking_pairs or self.playing
         if self.lane is not None and (self.at_work or waited_for):
             self.lane.cancel()
         if self._drawing is not None:
             self._end_drawing("it was cancelled")
         if self._finding is not None:
             self._end_finding(None, "it was cancelled")
+        if self._playing is not None:
+            self._end_playing(None, "it was cancelled")
         if self._pairs is not None:
             self._end_pairs(None, "it was cancelled")
         if self._exports:
@@ -182,7 +202,16 @@ class Jobs(QObject):
         return self.lane
 
     def _receive(self, message: LaneMessage) -> None:
-        from ..model.worker.messages import Died, Drawn, Exported, FaultsFound, PairsChecked, Partitioned, Progress
+        from ..model.worker.messages import (
+            Died,
+            Drawn,
+            Exported,
+            FaultsFound,
+            MotionPlayed,
+            PairsChecked,
+            Partitioned,
+            Progress,
+        )
 
         if self._closed:
             return
@@ -198,6 +227,8 @@ class Jobs(QObject):
                 self.drawn.emit(page, messages, fault or "")
             case FaultsFound(request, found, fault) if request == self._finding:
                 self._end_finding(found, fault or "")
+            case MotionPlayed(request, played, fault) if request == self._playing:
+                self._end_playing(played, fault or "")
             case PairsChecked(request, report, fault) if request == self._pairs:
                 self._end_pairs(report, fault or "")
             case Progress(request, done, total, label):
@@ -205,6 +236,8 @@ class Jobs(QObject):
                     self.drawing_progress.emit(done, total, label)
                 elif request == self._finding:
                     self.faults_progress.emit(done, total, label)
+                elif request == self._playing:
+                    self.playing_progress.emit(done, total, label)
                 elif request == self._pairs:
                     self.pairs_progress.emit(done, total, label)
                 elif request in self._exports:
@@ -223,6 +256,13 @@ class Jobs(QObject):
                 self._end_finding(None, f"{reason}, twice")
             case Died(request, reason, given_up) if given_up and request is not None and request == self._pairs:
                 self._end_pairs(None, f"{reason}, twice")
+
+            case Died(request, reason, given_up) if given_up and request is not None and request == self._playing:
+                self._end_playing(None, f"{reason}, twice")
+
+    def _end_playing(self, played: object, why: str) -> None:
+        self._playing = None
+        self.played.emit(played, why)
 
     def _end_finding(self, found: object, why: str) -> None:
         self._finding = None

@@ -38,6 +38,7 @@ from .files import Files
 from .hidden_surfaces import HiddenSurfaces
 from .looks import Looks
 from .mesh.panel import MeshPanel
+from .motion.panel import MotionPanel
 from .normals.needle_view import NeedleView
 from .palette.palette import Palette
 from .panels.figures import FigureUse
@@ -62,7 +63,7 @@ from .tools.handles import Handles
 from .tools.measure import MeasureTool
 from .tools.place_on_face import PlaceOnFace
 from .tools.section_tool import SectionTool
-from .tools.sight import SightTool
+from .tools.sight.tool import SightTool
 from .tools.tool_menu import SpaceBar
 from .tree.diagram import Diagram
 from .tree.model_panel import ModelPanel
@@ -202,6 +203,7 @@ class MainWindow(QMainWindow):
         self.pipeline = PipelinePanel(self)
         self.mesh = MeshPanel(self)
         self.faults = FaultsPanel(self)
+        self.motion = MotionPanel(self)
         self.clearance = ClearancePanel(self)
         self.joints_page = JointsPage(self.curve, self.comb, self)
         nodes_page = NodesPage(self.curve, self.actions_, NODE_BUTTONS, self)
@@ -229,6 +231,7 @@ class MainWindow(QMainWindow):
             bottom={
                 "Problems": self.problems,
                 "Faults": self.faults,
+                "Motion": self.motion,
                 "Clearance": self.clearance,
                 "Sections": self.sections,
                 "Script": self.script,
@@ -259,6 +262,7 @@ class MainWindow(QMainWindow):
             self.surfaces,
             self.mesh,
             self.faults,
+            self.motion,
             self.clearance,
         ):
             part.session_changed(before, after)
@@ -317,6 +321,9 @@ class MainWindow(QMainWindow):
 
     def show_faults(self) -> None:
         raise_dock(self, "Faults", FAULTS_HEIGHT)
+
+    def show_motion(self) -> None:
+        raise_dock(self, "Motion", FAULTS_HEIGHT)
 
     def show_clearance(self) -> None:
         raise_dock(self, "Clearance", FAULTS_HEIGHT)

@@ -33,6 +33,7 @@ def connect(window: MainWindow) -> None:
     window.problems.counted.connect(window.count_problems)
     window.docks["Diagram"].visibilityChanged.connect(window.diagram.set_in_front)
     _faults(window)
+    _motion(window)
     _clearance(window)
     window.docks["BSP"].visibilityChanged.connect(window.bsp.set_in_front)
     _pipeline(window)
@@ -64,6 +65,7 @@ def _words(window: MainWindow) -> None:
         window.pipeline,
         window.mesh,
         window.faults,
+        window.motion,
         window.clearance,
         window.light_tool,
         window.mapping_tool,
@@ -194,6 +196,14 @@ def _faults(window: MainWindow) -> None:
 
     panel.dirty.connect(show)
     panel.made.connect(made)
+
+
+def _motion(window: MainWindow) -> None:
+    panel = window.motion
+    window.docks["Motion"].visibilityChanged.connect(panel.set_in_front)
+    window.docks["Motion"].visibilityChanged.connect(window.actions_.refresh)
+    window.files.opened.connect(panel.document_opened)
+    panel.listed.connect(window.actions_.refresh)
 
 
 def _clearance(window: MainWindow) -> None:

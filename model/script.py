@@ -18,6 +18,7 @@ from .scripting import (
     hidden_surfaces,
     joining,
     letters,
+    motions,
     pipelines,
     proximity,
     shapes,
@@ -32,6 +33,7 @@ from .scripting.fonts import *  # noqa: F403
 from .scripting.hidden_surfaces import *  # noqa: F403
 from .scripting.joining import *  # noqa: F403
 from .scripting.letters import *  # noqa: F403
+from .scripting.motions import *  # noqa: F403
 from .scripting.outlines import *  # noqa: F403
 from .scripting.pipelines import *  # noqa: F403
 from .scripting.proximity import *  # noqa: F403
@@ -51,6 +53,7 @@ __all__ += hidden_surfaces.__all__
 __all__ += sight.__all__
 __all__ += surfaces.__all__
 __all__ += faults.__all__
+__all__ += motions.__all__
 __all__ += pipelines.__all__
 __all__ += proximity.__all__
 __all__ += structures.__all__

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 from vtkmodules.vtkCommonDataModel import vtkPolyData
+from vtkmodules.vtkCommonMath import vtkMatrix4x4
 from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
 
 from .curves.contour_lines import CurveLines, has_curves
@@ -26,7 +27,8 @@ Path = tuple[str | int, ...]
 SHEET = 0.22  # opacity of what an outline fills
 SHEET_OFFSET = (0.0, 0.0)  # slope and steps of depth behind lines; faces of solids stand at (2, 2)
 FADED = 0.7  # how much of the ground is mixed into the lines of what is faded
-SELECTED, HOVERED = 0.42, 0.28  # how much of the highlight's colour is mixed into a face
+SELECTED, HOVERED, TOUCHED = 0.42, 0.28, 0.55  # how much of the highlight's colour is mixed into a face
+TOUCH = "#d6336c"  # what touches something, unlike what is selected or pointed at
 
 
 class SolidActors:
@@ -37,6 +39,8 @@ class SolidActors:
         self.colours = colours
         self.faded = False
         """Whether only faint lines are drawn of it."""
+        self.touched = False
+        """Whether all of it is coloured as something that touches another."""
         self.surface = surface_of(mesh)
         self.features = lines_of(mesh.edge_points, mesh.edges)
         self._outline = lines_of(mesh.edge_points, mesh.edges[:0])
@@ -100,6 +104,15 @@ class SolidActors:
             data.AddArray(vtk_array(values, np.float32, name))
             mapper.MapDataArrayToVertexAttribute(name, name, 0, -1)
 
+    def set_move(self, move: NDArray[np.float64] | None) -> None:
+        """Draw it moved by a matrix (4, 4), None: where it is."""
+        matrix = None
+        if move is not None:
+            matrix = vtkMatrix4x4()
+            matrix.DeepCopy(np.asarray(move, np.float64).ravel().tolist())
+        for actor in self.actors:
+            actor.SetUserMatrix(matrix)
+
     def set_style(
         self, style: str, shading: str, look: Look, opacity: float, line_width: float, surfaces: Surfaces
     ) -> None:
@@ -137,6 +150,8 @@ class SolidActors:
         elif style == "hidden-line":
             colours[:] = rgb(ground)
             strength = 0.35
+        if self.touched:
+            colours += strength * TOUCHED * (np.array(rgb(TOUCH)) - colours)
         selected = self.under(selection)
         for owners, colour, share in (
             (selected, look.selection, SELECTED),

@@ -39,6 +39,9 @@ class Scene:
         self.selection: frozenset[Path] = frozenset()
         self.hover: Path | None = None
         self.faded: frozenset[str] = frozenset()
+        self.touched: frozenset[str] = frozenset()
+        self.moves: dict[str, NDArray[np.float64]] = {}
+        """Matrices (4, 4) of solids that are drawn elsewhere than they are, by id."""
         self.hidden_surface = "zbuffer"
         self.painter = Painter(renderer)
         self._tree: Tree | None = None
@@ -73,6 +76,8 @@ class Scene:
                 self._remove(solid_id)
             entry = SolidActors(mesh, colours)
             entry.faded = solid_id in self.faded
+            entry.touched = solid_id in self.touched
+            entry.set_move(self.moves.get(solid_id))
             self._solids[solid_id] = entry
             for actor in entry.actors:
                 self.renderer.AddActor(actor)
@@ -115,8 +120,8 @@ class Scene:
     @property
     def painting(self) -> bool:
         """Whether faces are drawn in the order of a tree: the mode is bsp, and there is one of what is shown, none of
-        it faded."""
-        if self.hidden_surface != "bsp" or self._tree is None or self.faded & self._solids.keys():
+        it faded or moved."""
+        if self.hidden_surface != "bsp" or self._tree is None or self.moves or self.faded & self._solids.keys():
             return False
         shown = {key: mesh for key, mesh in self.solid_meshes.items() if len(mesh.triangles)}
         ordered = {key: mesh for key, mesh in self._tree_meshes.items() if len(mesh.triangles)}
@@ -177,6 +182,20 @@ class Scene:
             entry.faded = solid_id in faded
             self._style(entry)
 
+    def set_moves(self, moves: Mapping[str, NDArray[np.float64]]) -> None:
+        """Draw these solids, and no others, moved by matrices (4, 4); those that are not shown count when they are."""
+        before, self.moves = self.moves, dict(moves)
+        for solid_id in (before.keys() | self.moves.keys()) & self._solids.keys():
+            self._solids[solid_id].set_move(self.moves.get(solid_id))
+
+    def set_touched(self, solid_ids: Iterable[str]) -> None:
+        """Colour these solids as such that touch others."""
+        touched = frozenset(solid_ids)
+        changed, self.touched = touched ^ self.touched, touched
+        for solid_id in changed & self._solids.keys():
+            self._solids[solid_id].touched = solid_id in touched
+        self._paint_some(changed)
+
     def set_style(self, style: str) -> None:
         """One of look.STYLES, else ValueError."""
         if style not in STYLES:
@@ -225,11 +244,20 @@ class Scene:
 
     def visible_bounds(self) -> NDArray[np.float64] | None:
         """The box (2, 3) around all shown solids, without ground and highlights; None where there is nothing."""
-        boxes = [np.reshape(entry.mesh.bounds, (2, 3)) for entry in self._solids.values() if len(entry.mesh.triangles)]
+        boxes = [self._box(key, entry.mesh) for key, entry in self._solids.items() if len(entry.mesh.triangles)]
         if not boxes:
             return None
         lower, upper = np.min(boxes, axis=0)[0], np.max(boxes, axis=0)[1]
         return np.array([lower, upper], float)
+
+    def _box(self, solid_id: str, mesh: "DisplayMesh") -> NDArray[np.float64]:
+        """(2, 3) around a solid, where it is drawn."""
+        box = np.reshape(mesh.bounds, (2, 3))
+        move = self.moves.get(solid_id)
+        if move is None:
+            return box
+        corners = box[np.indices((2, 2, 2)).reshape(3, 8).T, np.arange(3)] @ move[:3, :3].T + move[:3, 3]
+        return np.array([corners.min(axis=0), corners.max(axis=0)])
 
     @property
     def _solid_bounds(self) -> NDArray[np.float64] | None:

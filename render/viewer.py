@@ -149,6 +149,16 @@ class Viewer:
         self.scene.set_faded(solid_ids)
         self.needs_render = True
 
+    def set_moves(self, moves: Mapping[str, NDArray[np.float64]]) -> None:
+        """See `Scene.set_moves`."""
+        self.scene.set_moves(moves)
+        self.needs_render = True
+
+    def set_touched(self, solid_ids: Iterable[str]) -> None:
+        """See `Scene.set_touched`."""
+        self.scene.set_touched(solid_ids)
+        self.needs_render = True
+
     def set_sections(self, sections: "Iterable[Section]", dragged: bool = False) -> None:
         """See `Scene.set_sections`."""
         self.scene.set_sections(sections, dragged)

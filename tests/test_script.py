@@ -27,6 +27,7 @@ from solidtree.model.scripting import (
     hidden_surfaces,
     joining,
     letters,
+    motions,
     pipelines,
     proximity,
     shapes,
@@ -34,7 +35,9 @@ from solidtree.model.scripting import (
     structures,
 )
 
-PARTS = (shapes, letters, joining, documents, hidden_surfaces, sight, faults, pipelines, proximity, structures)
+PARTS = (
+    shapes, letters, joining, documents, hidden_surfaces, sight, faults, motions, pipelines, proximity, structures,
+)  # fmt: skip
 
 
 def test_the_examples_in_the_words_are_true():

@@ -40,9 +40,10 @@ ORDER = {
     "curve_panel curvature_comb construction",
     "Tools": "handles_move handles_turn handles_scale handles_size - local_axes snapping "
     "Tools/Contacts_while_dragging - Tools/Arrange - "
-    "measure clear_measurements line_of_sight ray_from_face Tools/Sections Tools/Surfaces Tools/Normals "
+    "measure clear_measurements line_of_sight ray_from_face seen_from_here visibility_map "
+    "Tools/Sections Tools/Surfaces Tools/Normals "
     "Tools/Mesh bitmap_inspector follow_vertex - faults repair_faults - "
-    "clearance meant_to_touch clearance_report - tool_menu",
+    "clearance meant_to_touch clearance_report - motion_panel play_motion - tool_menu",
     "View": "fit fit_selection - isolate show_all - view_iso view_front view_top view_right view_back view_bottom "
     "view_left - perspective tolerances grid ghosts face_normals vertex_normals colour_by_node translucent sections "
     "cull_back_faces automatic_clipping - hidden_surface "

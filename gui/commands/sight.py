@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ...model.editing.commands import Command
 
 if TYPE_CHECKING:
-    from ..tools.sight import Mode
+    from ..tools.sight.words import Mode
     from ..window import MainWindow
 
 
@@ -34,4 +34,10 @@ SIGHT_COMMANDS: tuple[Command, ...] = (
     Command("ray_from_face", "Gap and wall of a face", "Tools", lambda w: _toggle(w, "ray"), _nothing, "Shift+R",
             "ray_from_face", "Along a face's normal: how far it is to what stands before it, and how thick the wall is",
             checked=lambda w: w.sight.mode == "ray"),
+    Command("seen_from_here", "Seen from here?", "Tools", lambda w: _toggle(w, "part"), _nothing, "Shift+V",
+            "seen_from_here", "How much of a part is seen from where you look, and which parts hide the rest",
+            checked=lambda w: w.sight.mode == "part"),
+    Command("visibility_map", "Visibility map", "Tools", lambda w: _toggle(w, "map"), _nothing, "",
+            "visibility_map", "Which places of a face are seen from a point, painted on it",
+            checked=lambda w: w.sight.mode == "map"),
 )  # fmt: skip

@@ -19,6 +19,7 @@ from .handles import HANDLE_COMMANDS
 from .hidden_surfaces import HIDDEN_SURFACE_COMMANDS
 from .measure import MEASURE_COMMANDS
 from .mesh import MESH_COMMANDS
+from .motion import MOTION_COMMANDS
 from .nodes import NODE_COMMANDS
 from .normals import NORMAL_COMMANDS
 from .parameters import PARAMETER_COMMANDS
@@ -58,6 +59,7 @@ def add_commands(actions: Actions, window: MainWindow) -> None:
         (MEASURE_COMMANDS, window),
         (SIGHT_COMMANDS, window),
         (FAULT_COMMANDS, window),
+        (MOTION_COMMANDS, window),
         (CLEARANCE_COMMANDS, window),
         (DRAW_COMMANDS, window),
         (ARRANGE_COMMANDS, window),

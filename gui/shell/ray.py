@@ -44,15 +44,16 @@ def ray(options: argparse.Namespace) -> int:
         bar.end()
     status = told(options.file, scenery.messages, document)
     if options.origin is not None:
-        answer: dict[str, Any] = {"hit": _row(scenery.first_hit(*along))}
+        answer: dict[str, Any] = {"hit": row_of(scenery.first_hit(*along))}
     else:
         obstacle = scenery.obstacle(*between)
-        answer = {"sees": obstacle is None, "obstacle": _row(obstacle)}
+        answer = {"sees": obstacle is None, "obstacle": row_of(obstacle)}
     print(json.dumps(answer, indent=2, ensure_ascii=False, allow_nan=False))
     return status
 
 
-def _row(hit: NodeHit | None) -> dict[str, Any] | None:
+def row_of(hit: NodeHit | None) -> dict[str, Any] | None:
+    """A hit for JSON."""
     if hit is None:
         return None
     return {

@@ -49,6 +49,8 @@ def step(before: Document, after: Document, name: str, *arguments: Any, **keywor
         known.add(arguments[0] if arguments else keywords["name"])
     elif name == "rename_parameter":
         known |= {parameter.name for parameter in after.parameters}
+    elif name in ("add_motion", "set_motion", "set_in_motion"):  # these make the parameter that they drive
+        known |= {motion.parameter for motion in after.motions}
     lines = [
         call("set_parameter", parameter.name, parameter.value, **parameter_arguments(parameter))
         for parameter in after.parameters

@@ -18,6 +18,8 @@ from ..partition.rays import END, Hit, Rays
 from ..partition.sight import Sight, line_of_sight
 from ..solid.provenance import Path
 from ..solid.tessellation import DEFAULT_TOLERANCE
+from .visibility import TEXELS, Eye
+from .visible_parts import PartView, face_triangles, part_triangles, part_view, solid_of, words_of
 
 if TYPE_CHECKING:
     from ..partition.tree import Tree
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 
 Vector = tuple[float, float, float]
 
+FACE_REACH = 1e-4
+"""Of the scene's size: how far from a face a point may be that tells which one is meant."""
 MOST_EDGES = 300
 """Edges that are drawn to show a node."""
 
@@ -46,13 +50,29 @@ class NodeHit:
     path: tuple[str | int, ...]
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class NamedView:
+    """What is seen of a part or a face from a place: the `share` of the area turned there, 0 to 1, to within `error`;
+    the share that each solid hides, by name; `words` that say so; and the texels: `points` (n, 3), `areas` (n,) in mm²,
+    `state` (n,) 0 seen, 1 hidden, 2 turned away, and `obstacle` (n,), the name of what hides it or ""."""
+
+    share: float
+    error: float
+    hiders: dict[str, float]
+    words: str
+    points: np.ndarray
+    areas: np.ndarray
+    state: np.ndarray
+    obstacle: np.ndarray
+
+
 class SolidRays:
     """Rays through the tree of meshes, and what they tell of these."""
 
     def __init__(self, tree: Tree, meshes: Sequence[DisplayMesh]) -> None:
         """The faces of the tree are the triangles of the meshes, as of `faces_of_meshes`."""
         self.rays = Rays(tree)
-        self._meshes = tuple(meshes)
+        self.meshes = tuple(meshes)
         self._ends = np.cumsum([len(mesh.triangles) for mesh in meshes])
 
     def first_hit(self, origin: ArrayLike, direction: ArrayLike) -> Hit | None:
@@ -68,6 +88,36 @@ class SolidRays:
         gap = self.first_hit(point, normal)
         wall = self.first_hit(point, -np.asarray(normal, float))
         return gap, None if wall is None or wall.front else wall
+
+    def all_hits(self, origin: ArrayLike, direction: ArrayLike) -> tuple[Hit, ...]:
+        """All faces on a ray, the nearest first; one that it begins on counts. Of an edge only one is told, and of
+        triangles of a flat face side by side. Raises ValueError."""
+        found = self.rays.all(origin, direction)
+        facet = np.concatenate([mesh.facet for mesh in self.meshes])[found.face]
+        solid = np.searchsorted(self._ends, found.face, side="right")
+        keep: list[int] = []
+        for k in range(len(found.face)):
+            again = keep and found.distance[k] - found.distance[keep[-1]] <= END * self.rays.size
+            if not (again and solid[k] == solid[keep[-1]] and (facet[k] == facet[keep[-1]] or
+                    found.front[k] == found.front[keep[-1]])):  # fmt: skip
+                keep.append(k)
+        return tuple(self.rays.hit_at(origin, direction, float(found.distance[k]), int(found.face[k])) for k in keep)
+
+    def seen(self, solid_id: str, triangles: np.ndarray, eye: Eye, texels: int = TEXELS) -> PartView:
+        """See `part_view`."""
+        return part_view(self.rays, self.meshes, solid_id, triangles, eye, texels)
+
+    def face_at(self, point: ArrayLike, solid_id: str = "") -> tuple[str, np.ndarray] | None:
+        """The solid's id and the triangles of the smooth face that a point (3,) is on; None where it is on none."""
+        for face in self.rays.at(np.asarray(point, float), FACE_REACH * self.rays.size)[1]:
+            mesh, triangle = self._mesh_of(int(face))
+            if solid_id in ("", solid_of(mesh)):
+                return solid_of(mesh), face_triangles(mesh, triangle)
+        return None
+
+    def mesh(self, solid_id: str) -> DisplayMesh | None:
+        """The solid's own; None where it is not among them."""
+        return next((mesh for mesh in self.meshes if solid_of(mesh) == solid_id), None)
 
     def owner(self, face: int) -> Path:
         """The way from the root to the node that made a face of the tree."""
@@ -87,9 +137,13 @@ class SolidRays:
         away = np.linalg.norm(found.mean(axis=1) - hit.point, axis=1)
         return found[np.argsort(away, kind="stable")[:MOST_EDGES]]
 
+    def solids_at(self, faces: np.ndarray) -> np.ndarray:
+        """(n,) the places of the meshes that faces (n,) of the tree are of, -1 for -1."""
+        return np.where(faces >= 0, np.searchsorted(self._ends, faces, side="right"), -1)
+
     def _mesh_of(self, face: int) -> tuple[DisplayMesh, int]:
         number = int(np.searchsorted(self._ends, face, side="right"))
-        mesh = self._meshes[number]
+        mesh = self.meshes[number]
         return mesh, face - int(self._ends[number]) + len(mesh.triangles)
 
 
@@ -133,6 +187,56 @@ class Scenery:
         """What stands between two points, seen from the first one; None where they see each other. Raises Refusal."""
         hit = self._solids.sight(vector(a, "first point"), vector(b, "second point")).obstacle
         return None if hit is None else self._named(hit)
+
+    def all_hits(self, origin: ArrayLike, direction: ArrayLike) -> tuple[NodeHit, ...]:
+        """All faces on a ray, the nearest first, each told once where it meets an edge. Raises Refusal."""
+        try:
+            found = self._solids.all_hits(vector(origin, "origin"), vector(direction, "direction"))
+        except ValueError as error:
+            raise Refusal(str(error)) from None
+        return tuple(self._named(hit) for hit in found)
+
+    def view_of(self, part: str, eye: ArrayLike, parallel: bool = False) -> NamedView:
+        """What an eye (3,) sees of the first node of this name; `parallel`: from far away, where `eye` points to."""
+        path = next((path for path in self._paths() if self._names[str(path[-1])] == part), None)
+        if path is None:
+            names = ", ".join(f"“{name}”" for name in dict.fromkeys(self._names[str(p[-1])] for p in self._paths()))
+            raise Refusal(f"nothing that is visible is called “{part}”; there is {names}")
+        mesh = self._solids.mesh(str(path[0]))
+        assert mesh is not None
+        return self._view(str(path[0]), part, part_triangles(mesh, path), eye, parallel)
+
+    def map_of(self, eye: ArrayLike, point: ArrayLike, parallel: bool = False) -> NamedView:
+        """What an eye (3,) sees of the smooth face at a point (3,) on it. Raises Refusal where there is none."""
+        here = vector(point, "point on the face")
+        face = self._solids.face_at(here)
+        if face is None:
+            raise Refusal(f"no face is at {tuple(here.tolist())}")
+        return self._view(face[0], self._names[face[0]], face[1], eye, parallel)
+
+    def _view(self, solid_id: str, part: str, triangles: np.ndarray, eye: ArrayLike, parallel: bool) -> NamedView:
+        place = vector(eye, "eye")
+        try:
+            view = self._solids.seen(solid_id, triangles, Eye((place[0], place[1], place[2]), parallel))
+        except ValueError as error:
+            raise Refusal(str(error)) from None
+        hidden = self._solids.solids_at(view.visibility.obstacle)
+        words = words_of(view, f"“{part}”", self._names, "there")
+        return NamedView(
+            view.share,
+            view.visibility.error,
+            {self._names[other]: share for other, share in view.hiders},
+            words,
+            view.visibility.points,
+            view.visibility.areas,
+            view.visibility.state,
+            np.array([*(self._names[solid_of(mesh)] for mesh in self._solids.meshes), ""])[hidden],
+        )
+
+    def _paths(self) -> list[Path]:
+        """The solids' own, and those of what is in them from above down, the solids first."""
+        whole = {path[: k + 1]: None for mesh in self._solids.meshes for path in mesh.owners for k in range(len(path))}
+        return sorted((path for path in whole if isinstance(path[-1], str)), key=len)
 
     def _named(self, hit: Hit) -> NodeHit:
         path = tuple(step if isinstance(step, int) else self._names[step] for step in self._solids.owner(hit.face))

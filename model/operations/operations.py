@@ -1,8 +1,8 @@
 """What can be done to a document: plain functions, document in, document out, that refuse in the user's words.
 
 The console calls them by the same names, with the open document left out. Here stand those that dress and size a
-node; structure.py, relocating.py, placing.py, arranging.py, linking.py, pasting.py and parameters.py hold the others;
-OPERATIONS is the list of all.
+node; structure.py, relocating.py, placing.py, arranging.py, linking.py, pasting.py, parameters.py and motions.py hold
+the others; OPERATIONS is the list of all.
 """
 
 from __future__ import annotations
@@ -59,6 +59,7 @@ from .meshes.editing import (
 )  # fmt: skip
 from .meshes.mending import close_mesh_holes, repair_mesh
 from .meshes.mesh_nodes import convert_to_mesh
+from .motions import add_motion, delete_motion, rename_motion, set_in_motion, set_motion
 from .outlining import make_solid, make_stencils, set_text_on_path
 from .parameter_sets import apply_set, delete_set, put_sets, rename_set, save_set, set_parameters
 from .parameters import declaring, delete_parameter, rename_parameter, reorder_parameter, set_parameter
@@ -191,6 +192,7 @@ OPERATIONS: dict[str, Callable[..., Document]] = {
         set_parameter, rename_parameter, delete_parameter, reorder_parameter, set_parameters,
         save_set, put_sets, apply_set, rename_set, delete_set,
         add_section, set_section, rename_section, delete_section,
+        add_motion, set_motion, rename_motion, delete_motion, set_in_motion,
         add_material, set_material, rename_material, delete_material, use_material, set_mapping,
         set_crease, add_light, set_light, rename_light, delete_light, set_shading,
         set_clearance, check_pair,

@@ -30,7 +30,7 @@ def set_parameter(document: Document, name: str, value: Number | str, **more: An
 
 
 def rename_parameter(document: Document, name: str, new_name: str) -> Document:
-    """Call a parameter otherwise, in every expression and every saved set too."""
+    """Call a parameter otherwise, in every expression, every saved set and every motion too."""
     old = document.parameter(name)
     new = old.with_(name=new_name)
     if new.name == old.name:
@@ -50,7 +50,8 @@ def rename_parameter(document: Document, name: str, new_name: str) -> Document:
 
     document = change_each(document, [node.id for node in _users(document, old.name)], changed)
     parameters = (new if p is old else p.with_(value=renamed(p.value)) for p in document.parameters)
-    document = document.with_(parameters=tuple(parameters))
+    motions = tuple(m.with_(parameter=new.name) if m.parameter == old.name else m for m in document.motions)
+    document = document.with_(parameters=tuple(parameters), motions=motions)
     return _with_sets(
         document,
         lambda one: tuple((new.name if name == old.name else name, renamed(value)) for name, value in one.values),
@@ -58,13 +59,17 @@ def rename_parameter(document: Document, name: str, new_name: str) -> Document:
 
 
 def delete_parameter(document: Document, name: str) -> Document:
-    """Take a parameter out that no expression uses; saved sets forget it, and values that are reckoned from it."""
+    """Take a parameter out that no expression and no motion uses; saved sets forget it, and values that are reckoned
+    from it."""
     document.parameter(name)
     for node in _users(document, name):
         raise Refusal(f"the parameter {name} is used by “{node.label}”")
     for parameter in document.parameters:
         if parameter.name != name and name in names_of(parameter.value):
             raise Refusal(f"the parameter {name} is used by the parameter {parameter.name}")
+    for motion in document.motions:
+        if motion.parameter == name:
+            raise Refusal(f"the parameter {name} is driven by the motion “{motion.name}”")
     document = document.with_(parameters=tuple(p for p in document.parameters if p.name != name))
     return _with_sets(
         document, lambda one: tuple(pair for pair in one.values if name not in {pair[0], *names_of(pair[1])})

@@ -38,7 +38,7 @@ def overlap(one: Node, other: Node, tolerance: float = 0.05) -> float:
     >>> overlap(box(10), box(10).at(8, 8))
     40.0
     """
-    first, second = _bodies(one, other, tolerance=tolerance)
+    first, second = bodies_of(one, other, tolerance=tolerance)
     for body in (first, second):
         if not body.closed:
             raise Refusal(f"“{body.name}” is not closed: it has no inside to share")
@@ -56,7 +56,7 @@ def relation(one: Node, other: Node, tolerance: float = 0.05) -> Relation:
     """
     from ..proximity.bodies import relation as relation_of
 
-    first, second = _bodies(one, other, tolerance=tolerance)
+    first, second = bodies_of(one, other, tolerance=tolerance)
     found = relation_of(first, second)
     assert found is not None
     return found
@@ -169,10 +169,10 @@ def _points(points: ArrayLike) -> NDArray[np.float64]:
 
 
 def _body(solid: Node, tolerance: float) -> Body:
-    return _bodies(solid, tolerance=tolerance)[0]
+    return bodies_of(solid, tolerance=tolerance)[0]
 
 
-def _bodies(*solids: Node, tolerance: float) -> list[Body]:
+def bodies_of(*solids: Node, tolerance: float) -> list[Body]:
     from ..proximity.memo import body_of
 
     results = evaluate(*solids, tolerance=tolerance).solids

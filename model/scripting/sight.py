@@ -12,7 +12,7 @@ from .documents import document_of
 from .joining import solids_of
 
 if TYPE_CHECKING:
-    from ..measuring.sight import NodeHit, Scenery
+    from ..measuring.sight import NamedView, NodeHit, Scenery
 
 Solids = Node | Document | Iterable[Node]
 
@@ -31,6 +31,42 @@ def first_hit(
     'ball'
     """
     return _scenery(solids, tolerance).first_hit(origin, direction)
+
+
+def ray_hits(
+    solids: Solids, origin: Sequence[float], direction: Sequence[float], tolerance: float = 0.05
+) -> tuple[NodeHit, ...]:
+    """All faces on a ray, the nearest first, each as of `first_hit`; one that it begins on counts, too.
+
+    >>> [hit.distance for hit in ray_hits([box(10), box(10).at(20)], (-5, 5, 5), (1, 0, 0))]
+    [5.0, 15.0, 25.0, 35.0]
+    """
+    return _scenery(solids, tolerance).all_hits(origin, direction)
+
+
+def visible_share(
+    solid: Node, eye: Sequence[float], among: Iterable[Node] = (), parallel: bool = False, tolerance: float = 0.05
+) -> NamedView:
+    """How much of a solid an eye sees past itself and others: `share` 0 to 1 of the area that is turned to the eye,
+    `error`, `hiders` by name, `words`, and the texels that were looked at. `parallel`: `eye` is the direction to an eye
+    far away. Raises Refusal.
+
+    >>> visible_share(box(10).named("lid"), (5, 5, 50), [box(20, 20, 1).at(-5, -5, 30).named("arm")]).words
+    'Nothing of “lid” is seen from there; “arm” hides 100 %'
+    """
+    solids = (solid, *(other for other in among if other is not solid))
+    return _scenery(solids, tolerance).view_of(solid.label, eye, parallel)
+
+
+def visibility_map(
+    solids: Solids, eye: Sequence[float], point: Sequence[float], parallel: bool = False, tolerance: float = 0.05
+) -> NamedView:
+    """What an eye sees of the smooth face that `point` lies on, texel by texel; see `visible_share`. Raises Refusal.
+
+    >>> visibility_map(box(10), (5, 5, 50), (5, 5, 10)).share
+    1.0
+    """
+    return _scenery(solids, tolerance).map_of(eye, point, parallel)
 
 
 def sees(solids: Solids, a: Sequence[float], b: Sequence[float], tolerance: float = 0.05) -> bool:
@@ -64,4 +100,4 @@ def _scenery(solids: Solids, tolerance: float) -> Scenery:
     return _kept[key][1]
 
 
-__all__ = ["first_hit", "obstacle", "sees"]
+__all__ = ["first_hit", "obstacle", "ray_hits", "sees", "visibility_map", "visible_share"]

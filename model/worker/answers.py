@@ -15,6 +15,7 @@ from .messages import (
     Exported,
     FaultsFound,
     LaneMessage,
+    MotionPlayed,
     PairsChecked,
     Partitioned,
     Progress,
@@ -70,6 +71,8 @@ class Answers:
                 self._tell(Partitioned(number, tree, seconds))
             case ("faults", number, found):
                 self._tell(FaultsFound(number, found))
+            case ("played", number, played):
+                self._tell(MotionPlayed(number, played))
             case ("pairs", number, report):
                 self._tell(PairsChecked(number, report))
             case ("refused", _, reason):
@@ -90,6 +93,8 @@ class Answers:
             self._tell(Partitioned(job.number, None, 0.0, reason))
         elif job.word == "faults":
             self._tell(FaultsFound(job.number, None, reason))
+        elif job.word == "play":
+            self._tell(MotionPlayed(job.number, None, reason))
         elif job.word == "pairs":
             self._tell(PairsChecked(job.number, None, reason))
         elif job.word == "evaluate":

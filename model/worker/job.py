@@ -33,6 +33,7 @@ class Job:
     supersedes: bool = True
     meshes: tuple[DisplayMesh, ...] = ()
     plan: Plan | None = None
+    between: bool = False
 
 
 def request_of(job: Job, pictures: set[bytes], surfaces: set[bytes]) -> tuple[Any, ...]:
@@ -50,6 +51,8 @@ def request_of(job: Job, pictures: set[bytes], surfaces: set[bytes]) -> tuple[An
         return "draw", job.number, table, job.tolerance or None, job.solid, job.plan, job.path
     if job.word == "faults":
         return "faults", job.number, table, job.tolerance, job.ids
+    if job.word == "play":
+        return "play", job.number, table, job.tolerance, job.solid, job.between
     if job.word == "pairs":
         return "pairs", job.number, table, job.tolerance
     return "export", job.number, table, job.path, job.tolerance, job.solid, job.section

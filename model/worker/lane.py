@@ -137,6 +137,17 @@ class Lane:
         """Give up the pairs that are checked, or wait; no answer comes."""
         self._stop("pairs")
 
+    def play(self, document: Document, motion: str, tolerance: float, between: bool = False) -> int:
+        """Ask for a motion of the document step by step, `between` them too; the answer is a MotionPlayed. A newer
+        question takes its place, and `stop_playing` ends it."""
+        return self._ask("play", document, tolerance, solid=motion, between=between)
+
+    def stop_playing(self) -> None:
+        """Give up the motion that is looked at, or waits; no answer comes."""
+        with self._lock:
+            self._waiting.stop("play", self._number)
+        self._wake()
+
     def examine(self, document: Document, ids: tuple[str, ...], tolerance: float = DEFAULT_TOLERANCE) -> int:
         """Ask for nodes by themselves, as ghosts and measures need them; a newer question takes the place of this one.
 

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from ..drafting.page import Page
     from ..partition.tree import Tree
     from ..proximity.findings import Report
+    from ..proximity.moving.playing import Played
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,6 +89,15 @@ class FaultsFound:
 
 
 @dataclass(frozen=True, slots=True)
+class MotionPlayed:
+    """The answer to `Lane.play`: the motion step by step; or `fault`, why there is none."""
+
+    request: int
+    played: Played | None
+    fault: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class PairsChecked:
     """The answer to `Lane.check_pairs`; or `fault`, why there is none."""
 
@@ -121,6 +131,7 @@ LaneMessage = (
     | Partitioned
     | Drawn
     | FaultsFound
+    | MotionPlayed
     | PairsChecked
     | Cancelled
     | Died

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from .job import Job
 
-ORDER = ("evaluate", "draw", "partition", "pairs", "faults", "examine", "prepare")
+ORDER = ("evaluate", "draw", "partition", "pairs", "faults", "play", "examine", "prepare")
 """Of those that wait, the first of these words is done next."""
 
-URGENT = ("evaluate", "partition", "draw", "faults", "pairs")
+URGENT = ("evaluate", "partition", "draw", "faults", "pairs", "play")
 """Words of requests whose answers somebody waits for."""
 
 
@@ -50,7 +50,7 @@ class Waiting:
         """Whether something newer takes the place of what is at work."""
         if job.word == "partition":
             return "partition" in self._newest
-        if job.word in ("draw", "faults", "pairs"):
+        if job.word in ("draw", "faults", "pairs", "play"):
             return not job.path and (job.word in self._newest or job.number <= self._unwanted.get(job.word, 0))
         newer = self._newest.get("evaluate")
         return newer is not None and job.word != "export" and (newer.supersedes or job.supersedes)

@@ -200,6 +200,17 @@ class _Worker:
         )
         return "faults", number, found
 
+    def _play(
+        self, number: int, table: dict[str, Any], tolerance: float, motion: str, between: bool
+    ) -> tuple[Any, ...]:
+        from ..proximity.moving.playing import play
+
+        return (
+            "played",
+            number,
+            play(from_table(table), motion, tolerance, _Progress(self._connection, number, 1).tell, between),
+        )
+
     def _pairs(self, number: int, table: dict[str, Any], tolerance: float) -> tuple[Any, ...]:
         from ..proximity.checking import check_document
         from ..proximity.memo import PairMemo

@@ -1,43 +1,36 @@
-"""The tools for lines of sight: two clicks ask whether points see each other, one what is before and behind a face."""
+"""The tools for lines of sight: whether two points see each other, what is before and behind a face, what is seen of a
+part from here, and what of a face from a point."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPointF, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 
-from ...model.document.tree import walk
-from ...model.editing.session import Session
-from ..hidden_surfaces import HiddenSurfaces
-from ..view.viewport import Viewport
-from .click_tool import ClickTool
+from ....model.document.tree import walk
+from ....model.editing.session import Session
+from ...hidden_surfaces import HiddenSurfaces
+from ...view.viewport import Viewport
+from ..click_tool import ClickTool
+from .seen_surface import SeenSurface
+from .words import ANEW, FIRST, SECOND, WORDS, Mode
 
 if TYPE_CHECKING:
-    from ...model.measuring.sight import SolidRays
-    from ...model.partition.rays import Hit
-    from ...model.partition.sight import Sight
-    from ...render.handles.sight_marks import SightMarks
-    from ...render.handles.snap import Snap, Snapper
-    from ...render.handles.snap_mark import SnapMark
-    from ...render.viewer import Viewer
+    from ....model.measuring.sight import SolidRays
+    from ....model.measuring.visibility import Eye
+    from ....model.partition.rays import Hit
+    from ....model.partition.sight import Sight
+    from ....render.handles.sight_marks import SightMarks
+    from ....render.handles.snap import Snap, Snapper
+    from ....render.handles.snap_mark import SnapMark
+    from ....render.viewer import Viewer
 
-Mode = Literal["points", "ray"]
 Vector = tuple[float, float, float]
 
-WORDS = {
-    "vertex": "Corner", "midpoint": "Middle", "centre": "Centre", "edge": "Edge", "face": "Face", "grid": "Ground",
-}  # fmt: skip
-FIRST = {
-    "points": "Click a point, then another one, to learn whether they see each other; Escape ends this",
-    "ray": "Click a face to learn how far it is to what stands before it, and how thick the wall is; Escape ends this",
-}
-SECOND = "Click the point to look at; Escape takes the first one back"
-ANEW = {"points": "a click begins anew", "ray": "click another face"}
 SORTING = "The faces are being sorted …"
 UNSORTED = "The faces of this model could not be sorted; change it to try again"
 LIVE = 0.03  # seconds that an answer may take for the line to be judged while the pointer moves
-FAR = 0.15  # of the scene's size: how far a ray is drawn that meets nothing
 
 
 class SightTool(ClickTool):
@@ -65,6 +58,12 @@ class SightTool(ClickTool):
         """The answer about two points; None as long as there is none."""
         self.about: tuple[Hit | None, Hit | None] | None = None
         """The answer about a face: what stands before it, and what ends the wall below it."""
+        self.seen = SeenSurface(session, viewport, self)
+        """The answer about a part or a face that is looked at."""
+        self._looked_at = ""
+        self._eye: Eye | None = None
+        self.seen.said.connect(self._say_seen)
+        self.seen.rested.connect(self._judge)
         hidden_surfaces.changed.connect(self._sorted)
         viewport.displayed.connect(self._displayed)
 
@@ -99,17 +98,19 @@ class SightTool(ClickTool):
     # Events.
 
     def attached(self, viewer: Viewer) -> None:
-        from ...render.handles.sight_marks import SightMarks
-        from ...render.handles.snap import Snapper
-        from ...render.handles.snap_mark import SnapMark
+        from ....render.handles.sight_marks import SightMarks
+        from ....render.handles.snap import Snapper
+        from ....render.handles.snap_mark import SnapMark
 
         super().attached(viewer)
         self._snapper, self._snap_mark, self._marks = Snapper(viewer), SnapMark(), SightMarks()
+        self.seen.attached(viewer)
         viewer.overlay.add(self._marks)
         viewer.overlay.add(self._snap_mark)
 
     def closing(self) -> None:
         self.end()
+        self.seen.closing()
         super().closing()
         self._snapper = self._snap_mark = self._marks = None
 
@@ -117,9 +118,14 @@ class SightTool(ClickTool):
         return self.active
 
     def key(self, event: QKeyEvent) -> bool:
-        if self.mode is None or event.key() != Qt.Key.Key_Escape:
+        if self.mode is None:
             return False
-        if self.points:
+        if self.mode == "map" and event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self._look_from(self.seen.eye())
+            return True
+        if event.key() != Qt.Key.Key_Escape:
+            return False
+        if self.points or self._eye is not None:
             self._forget()
             self.said.emit(FIRST[self.mode])
         else:
@@ -132,7 +138,7 @@ class SightTool(ClickTool):
             self._snap_mark.show(snap)
         if self.mode == "points" and len(self.points) == 1:
             self._judge(None if snap is None else snap.point)
-        elif not self.points and self.mode is not None:
+        elif not self.points and self._eye is None and self.mode is not None:
             self.said.emit(FIRST[self.mode] if snap is None else f"{WORDS[snap.kind]}. {FIRST[self.mode]}")
         self._draw()
 
@@ -140,7 +146,15 @@ class SightTool(ClickTool):
         snap = self._find(position)
         if snap is None:
             return
-        if self.mode == "ray":
+        if self.mode == "map" and self._eye is None:
+            from ....model.measuring.visibility import Eye
+
+            self._look_from(Eye(snap.point), snap.point)
+            return
+        if self.mode in ("part", "map"):
+            self.points = (snap.point,)
+            self._looked_at = str(snap.path[0])
+        elif self.mode == "ray":
             assert snap.direction is not None
             self._forget()
             self.points = (snap.point, snap.direction)
@@ -151,23 +165,31 @@ class SightTool(ClickTool):
             self.points = (snap.point,)
         self._judge()
 
+    def _look_from(self, eye: Eye | None, point: Vector | None = None) -> None:
+        """Of the visibility map: from a point that was clicked, or the camera's eye, which gets no mark."""
+        self._forget()
+        self._eye, self.points = eye, () if point is None else (point,)
+        if point is not None:
+            self._show_point()
+        self.said.emit(SECOND["map"])
+
     def _displayed(self) -> None:
         if self.active:
             self._judge()
 
     def _sorted(self) -> None:
-        if self.active and self.points and self.sight is None and self.about is None:
+        if self.active and self.points and self.sight is None and self.about is None and self.seen.view is None:
             self._judge()
 
     def _find(self, position: QPointF) -> Snap | None:
         if self._snapper is None:
             return None
-        if self.mode == "points":
+        if self.mode == "points" or (self.mode == "map" and self._eye is None):
             return self._snapper.find(position.x(), position.y())
         pick = self._snapper.pick(position.x(), position.y())
         if pick is None:
             return None
-        from ...render.handles.snap import Snap
+        from ....render.handles.snap import Snap
 
         return Snap("face", pick.point, pick.normal, pick.path)
 
@@ -175,7 +197,7 @@ class SightTool(ClickTool):
 
     def _rays(self) -> SolidRays | None:
         """Rays through what is shown; None while its faces are being sorted, or something moves."""
-        from ...model.measuring.sight import SolidRays
+        from ....model.measuring.sight import SolidRays
 
         if self._viewer is None or self._session.previewing:
             return None
@@ -195,11 +217,14 @@ class SightTool(ClickTool):
 
         if self.mode is None or not self.points:
             return
+        if self.mode in ("part", "map"):
+            self._judge_seen()
+            return
         pending = self.mode == "points" and len(self.points) == 1
         self.sight = self.about = None
         if pending and target is None:
             self._show_point()
-            self.said.emit(SECOND)
+            self.said.emit(SECOND["points"])
             return
         slow = pending and self._seconds > LIVE
         start = perf_counter()
@@ -212,6 +237,22 @@ class SightTool(ClickTool):
             self._seconds = perf_counter() - start
         self._draw()
 
+    def _judge_seen(self) -> None:
+        eye = self.seen.eye() if self.mode == "part" else self._eye
+        if not self._looked_at or eye is None:
+            return
+        rays = self._rays()
+        if rays is None:
+            self.seen.forget()
+            self.said.emit(self._why_not())
+        else:
+            self.seen.ask(rays, self._looked_at, None if self.mode == "part" else self.points[-1], eye)
+        self._draw()
+
+    def _say_seen(self, words: str) -> None:
+        if self.mode is not None:
+            self.said.emit(f"{words}; {ANEW[self.mode]}" if self.seen.view is not None else words)
+
     def _show_point(self) -> None:
         import numpy as np
 
@@ -220,61 +261,32 @@ class SightTool(ClickTool):
         self._draw()
 
     def _show_sight(self, rays: SolidRays | None, a: Vector, b: Vector, pending: bool) -> None:
-        import numpy as np
+        from .lines import show_sight, show_unknown
 
-        from ...model.measuring.elements import short
-        from ...render.handles.sight_marks import SightLine
-
-        start, end = np.array(a), np.array(b)
         if self._marks is None:
             return
         if rays is None:
-            self._marks.show([SightLine(start, end, "unknown")], [start, end])
-            self.said.emit(SECOND if pending else self._why_not())
+            show_unknown(self._marks, a, b)
+            self.said.emit(SECOND["points"] if pending else self._why_not())
             return
         sight = rays.sight(a, b)
-        after = SECOND if pending else ANEW["points"]
         if not pending:
             self.sight = sight
-        length, hit = short(sight.length), sight.obstacle
-        if hit is None:
-            self._marks.show([SightLine(start, end, "clear", length)], [start, end])
-            self.said.emit(f"Clear: {length} mm; {after}")
-            return
-        name, middle, reach = self._name(rays, hit), np.array(hit.point), short(hit.distance)
-        lines = [SightLine(middle, end, "blocked", f"“{name}”")]
-        if hit.distance > 0.0:
-            lines.append(SightLine(start, middle, "clear", reach))
-        self._marks.show(lines, [start, middle, end], rays.outline(hit))
-        self.said.emit(f"“{name}” is in the way: {reach} of {length} mm are clear; {after}")
+        words = show_sight(self._marks, rays, sight, self._name)
+        self.said.emit(f"{words}; {SECOND['points'] if pending else ANEW['points']}")
 
     def _show_about(self, rays: SolidRays | None) -> None:
-        import numpy as np
-
-        from ...model.measuring.elements import short
-        from ...render.handles.sight_marks import SightLine
+        from .lines import show_about
 
         if self._marks is None:
             return
-        point, normal = np.array(self.points[0]), np.array(self.points[1])
+        point, normal = self.points
         if rays is None:
-            self._marks.show((), [point])
+            self._show_point()
             self.said.emit(self._why_not())
             return
         self.about = gap, wall = rays.about(point, normal)
-        dots, lines = [point], []
-        if gap is None:
-            lines.append(SightLine(point, point + FAR * rays.rays.size * normal, "clear"))
-            words = "Nothing stands before this face"
-        else:
-            dots.append(np.array(gap.point))
-            lines.append(SightLine(point, dots[-1], "clear", short(gap.distance)))
-            words = f"“{self._name(rays, gap)}” is {short(gap.distance)} mm before this face"
-        if wall is not None:
-            dots.append(np.array(wall.point))
-            lines.append(SightLine(point, dots[-1], "wall", short(wall.distance)))
-            words += f"; the wall is {short(wall.distance)} mm thick"
-        self._marks.show(lines, dots, None if gap is None else rays.outline(gap))
+        words = show_about(self._marks, rays, point, normal, gap, wall, self._name)
         self.said.emit(f"{words}; {ANEW['ray']}")
 
     def _why_not(self) -> str:
@@ -286,6 +298,8 @@ class SightTool(ClickTool):
 
     def _forget(self) -> None:
         self.points, self.sight, self.about = (), None, None
+        self._looked_at, self._eye = "", None
+        self.seen.forget()
         if self._marks is not None:
             self._marks.show(())
         self._draw()

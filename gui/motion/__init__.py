@@ -1,0 +1,1 @@
+"""The Motion panel: parameters that go in time, played in the picture with the contacts of each step."""

@@ -1,0 +1,1 @@
+"""Solids on their way: poses, first contacts, and motions of a document step by step."""
