@@ -5,9 +5,9 @@ import io
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QInputDialog
+from PySide6.QtWidgets import QInputDialog, QMenu
 from replay import replayed
 
 from solidtree.model.document.table import same_document
@@ -165,6 +165,60 @@ def test_the_command_of_two_selected_solids_and_the_echo_replay(checked):
     assert not checked.document.checks.pairs
     checked.session.select([ids["base"]])
     assert not window.actions_["meant_to_touch"].isEnabled()
+
+
+def chosen_from_menu(driver, number, words):
+    """Choose from the menu of a row, as a right click opens it."""
+    table = driver.window.clearance.page.table
+    table.customContextMenuRequested.emit(table.visualRect(table.model().index(number, 0)).center())
+    menu = next(menu for menu in table.findChildren(QMenu) if menu.isVisible())
+    action = next(action for action in menu.actions() if action.text().startswith(words))
+    driver.qtbot.mouseClick(menu, LEFT, pos=menu.actionGeometry(action).center())
+
+
+def test_the_menu_of_a_row_and_its_keys_reach_both_solids(checked):
+    ask(checked, "0.5")
+    session, panel = checked.session, checked.window.clearance
+    ids = {root.name: root.id for root in checked.document.solids}
+    click(checked, 0)
+    checked.qtbot.keyClick(panel.page.table, Qt.Key.Key_S)
+    assert set(session.selection) == {ids["base"], ids["pin"]}
+    chosen_from_menu(checked, 2, "Show these two alone")
+    assert set(session.isolated) == {ids["base"], ids["lid"]}
+    checked.qtbot.keyClick(panel.page.table, Qt.Key.Key_I)
+    assert set(session.isolated) == {ids["base"], ids["pin"]}
+    checked.qtbot.keyClick(panel.page.table, Qt.Key.Key_I)
+    assert not session.isolated
+    session.do("check_pair", ids["base"], ids["lid"], clearance=0.4)
+    settled(checked)
+    chosen_from_menu(checked, 2, "As all others")
+    assert not checked.document.checks.pairs
+    chosen_from_menu(checked, 1, "Meant to touch")
+    settled(checked)
+    assert (("base", "foot"), "near") not in listed(checked)
+
+
+def test_rows_are_sorted_by_a_click_on_a_title(checked):
+    ask(checked, "0.5")
+    header = checked.window.clearance.page.table.horizontalHeader()
+    at = QPoint(header.sectionViewportPosition(1) + 20, header.height() // 2)
+    checked.qtbot.mouseClick(header.viewport(), LEFT, pos=at)
+    assert [names[1] for names, _ in listed(checked)] == ["foot", "lid", "pin"]
+    checked.qtbot.mouseClick(header.viewport(), LEFT, pos=at)
+    assert [names[1] for names, _ in listed(checked)] == ["pin", "lid", "foot"]
+
+
+def test_a_check_that_is_given_up_leaves_the_last_list_and_the_document(checked):
+    page, checks, document = checked.window.clearance.page, checked.window.clearance.checks, checked.document
+    before = listed(checked)
+    checked.qtbot.mouseClick(page.check, LEFT)
+    assert checks.at_work and page.cancel.isVisible()
+    checked.qtbot.mouseClick(page.cancel, LEFT)
+    assert not checks.at_work and not page.cancel.isVisible()
+    assert checked.document is document and listed(checked) == before
+    checked.qtbot.mouseClick(page.check, LEFT)
+    settled(checked)
+    assert listed(checked) == before and not page.cancel.isVisible()
 
 
 def test_nothing_to_check_is_said(make_window):

@@ -123,6 +123,7 @@ class ClearancePage(QWidget):
         if not self.clearance.isModified():
             self.clearance.set_value(document.checks.clearance)
         self.rules.show_rules(document)
+        self.table.ruled = frozenset(rule.ends for rule in document.checks.pairs)
         self._arrange()
 
     def show_report(self, report: Report | None) -> None:

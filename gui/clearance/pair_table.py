@@ -116,12 +116,15 @@ class PairTable(QTableView):
     clearance_asked = Signal(object)
     rule_dropped = Signal(object)
     selection_asked = Signal(object)
+    isolation_asked = Signal(object)
     left = Signal()
     """Escape was pressed."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.pairs = PairModel(self)
+        self.ruled: frozenset[tuple[str, str]] = frozenset()
+        """The pairs, by their ids in order, that have a rule of their own."""
         self.setModel(self.pairs)
         self.setAccessibleName("Pairs of solids")
         self.verticalHeader().hide()
@@ -192,13 +195,16 @@ class PairTable(QTableView):
         menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
         if row is not None:
             menu.addAction("Zoom to it\tEnter", lambda: self.zoomed.emit(row))
-            menu.addAction("Select both", lambda: self.selection_asked.emit(row))
+            menu.addAction("Select both\tS", lambda: self.selection_asked.emit(row))
+            menu.addAction("Show these two alone\tI", lambda: self.isolation_asked.emit(row))
             menu.addSeparator()
             if row.touching:
                 menu.addAction("Not meant to touch", lambda: self.rule_dropped.emit(row))
             else:
                 menu.addAction("Meant to touch\tT", lambda: self.touching_asked.emit(row))
             menu.addAction("Clearance of this pair …\tC", lambda: self.clearance_asked.emit(row))
+            if not row.touching and tuple(sorted(row.ids)) in self.ruled:
+                menu.addAction("As all others", lambda: self.rule_dropped.emit(row))
             menu.addSeparator()
             menu.addAction("Copy this row", lambda: QGuiApplication.clipboard().setText("\t".join(texts_of(row))))
         menu.addAction("Copy as text", self.copy)
@@ -213,7 +219,8 @@ class PairTable(QTableView):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         row = self.current
-        asked = {Qt.Key.Key_T: self.touching_asked, Qt.Key.Key_C: self.clearance_asked}
+        asked = {Qt.Key.Key_T: self.touching_asked, Qt.Key.Key_C: self.clearance_asked,
+                 Qt.Key.Key_S: self.selection_asked, Qt.Key.Key_I: self.isolation_asked}  # fmt: skip
         if event.matches(QKeySequence.StandardKey.Copy):
             self.copy()
         elif not self._own(event):
@@ -225,5 +232,6 @@ class PairTable(QTableView):
 
     def _own(self, event: QKeyEvent) -> bool:
         plain = event.modifiers() in (Qt.KeyboardModifier.NoModifier, Qt.KeyboardModifier.KeypadModifier)
-        keys = (Qt.Key.Key_T, Qt.Key.Key_C, Qt.Key.Key_Return, Qt.Key.Key_Enter, Qt.Key.Key_Escape)
+        keys = (Qt.Key.Key_T, Qt.Key.Key_C, Qt.Key.Key_S, Qt.Key.Key_I, Qt.Key.Key_Return, Qt.Key.Key_Enter,
+                Qt.Key.Key_Escape)  # fmt: skip
         return (plain and event.key() in keys) or event.matches(QKeySequence.StandardKey.Copy)

@@ -88,6 +88,7 @@ class ClearancePanel(QWidget):
         page.table.clearance_asked.connect(self._ask_clearance)
         page.table.rule_dropped.connect(lambda finding: self._ask_of(*finding.ids))
         page.table.selection_asked.connect(lambda finding: self._window.session.select(finding.ids))
+        page.table.isolation_asked.connect(self._isolate)
         page.table.left.connect(self.leave)
         page.rules.dropped.connect(lambda rule: self._ask_of(*rule.ends))
         page.rules.clearance_asked.connect(self._ask_clearance)
@@ -130,6 +131,11 @@ class ClearancePanel(QWidget):
         if self.page is not None and self.picture is not None:
             self.page.table.leave()
             self.picture.show(None)
+
+    def _isolate(self, finding: Finding) -> None:
+        """Show its two solids alone; everything again where they are alone already."""
+        session = self._window.session
+        session.isolate(() if set(session.isolated) == set(finding.ids) else finding.ids)
 
     # What is asked.
 
