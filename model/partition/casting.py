@@ -45,7 +45,7 @@ class Caster:
         columns = (lines.origin, lines.direction, lines.begin, lines.end, lines.before)
         given = [np.ascontiguousarray(column, np.float64) for column in columns]
         distance, face = np.empty(len(lines.begin)), np.empty(len(lines.begin), np.int64)
-        addresses = (array.ctypes.data for array in given)
+        addresses = [array.ctypes.data for array in given]
         native.check(
             native.library().bsp_first_hits(
                 ctypes.byref(self._view), *addresses, len(distance), slack, distance.ctypes.data, face.ctypes.data

@@ -160,12 +160,12 @@ def insert(tree: Tree, moving: Faces) -> Tree:
     compiled = library()
     faces = joined((tree.faces, moving))
     faces_view, faces_held = _faces_view(faces)
-    tree_view, tree_held = tree_view(tree)
+    before, tree_held = tree_view(tree)
     handle = _ADDRESS()
     try:
         check(
             compiled.bsp_insert(
-                faces_view, tree_view, tree.faces.count, len(tree.faces.points), tree.epsilon, ctypes.byref(handle)
+                faces_view, before, tree.faces.count, len(tree.faces.points), tree.epsilon, ctypes.byref(handle)
             )
         )
         return _taken(compiled, handle, faces, tree.epsilon, tree)
