@@ -644,6 +644,137 @@ struct Painter {
     }
 };
 
+// ---------------------------------------------------------------------------------------------------------------------
+// The first face on a ray: the textbook's walk from front to back, as rays.py has it for a single one.
+
+struct RaysView {
+    const TreeView* tree;
+    const double* planes;  // of the faces
+    const int32_t* plane_of;
+    const double* sides;      // (corners, 4) planes across the sides of fragments, looking inwards
+    const int64_t* top;       // (nodes,) the box around a node's fragments; -1 where they are simply tried
+    const double* boxes;      // (boxes, 6) low, high; those of fragments before those of others
+    const int64_t* inside;    // (boxes, 2) the first box in it and how many
+    const int64_t* fragments;  // of the first boxes
+    int64_t leaves;           // how many of the boxes are of fragments
+    double epsilon, size;
+};
+
+struct Caster {
+    const RaysView& view;
+    const double *origin = nullptr, *direction = nullptr;
+    double begin = 0, end = 0, before = 0, distance = 0;
+    int64_t face = -1;
+    double inverse[3] = {0, 0, 0};
+
+    struct Waiting {
+        int32_t node;
+        double begin, end;
+        bool own;
+    };
+    std::vector<Waiting> waiting;
+    std::vector<int64_t> opened;
+
+    static double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+    void attempt(int64_t fragment) {
+        const TreeView& tree = *view.tree;
+        const int32_t source = tree.source[fragment];
+        const double* plane = view.planes + 4 * int64_t{view.plane_of[source]};
+        const double rise = dot(plane, direction), base = dot(plane, origin) - plane[3];
+        const double one = base + rise * begin, two = base + rise * end;
+        if (std::min(one, two) > view.epsilon || std::max(one, two) < -view.epsilon) return;
+        if (!(std::abs(rise) * view.size > 2.0 * view.epsilon)) return;
+        const double part = std::min(std::max(-base / rise, begin), end), away = part + before;
+        if (away > distance || (away == distance && source >= face)) return;
+        const double point[3] = {
+            origin[0] + part * direction[0], origin[1] + part * direction[1], origin[2] + part * direction[2]};
+        for (int32_t corner = tree.starts[fragment]; corner < tree.starts[fragment + 1]; ++corner)
+            if (height(view.sides + 4 * int64_t{corner}, point) < -view.epsilon) return;
+        distance = away;
+        face = source;
+    }
+
+    bool meets(const double* box, double slack) const {
+        double enters = begin, leaves = end;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double one = (box[axis] - slack - origin[axis]) * inverse[axis];
+            const double two = (box[axis + 3] + slack - origin[axis]) * inverse[axis];
+            enters = std::max(enters, std::min(one, two));
+            leaves = std::min(leaves, std::max(one, two));
+        }
+        return enters <= leaves && enters + before <= distance + slack;
+    }
+
+    void own(int32_t node, double slack) {
+        const TreeView& tree = *view.tree;
+        if (view.top[node] < 0) {
+            for (int32_t k = 0; k < tree.count[node]; ++k) attempt(int64_t{tree.first[node]} + k);
+            return;
+        }
+        opened.assign(1, view.top[node]);
+        while (!opened.empty()) {
+            const int64_t box = opened.back();
+            opened.pop_back();
+            if (!meets(view.boxes + 6 * box, slack)) continue;
+            if (box < view.leaves) {
+                attempt(view.fragments[box]);
+                continue;
+            }
+            const int64_t* inside = view.inside + 2 * box;
+            for (int64_t k = 0; k < inside[1]; ++k) opened.push_back(inside[0] + k);
+        }
+    }
+
+    void cast(double slack) {
+        const TreeView& tree = *view.tree;
+        distance = std::numeric_limits<double>::infinity();
+        face = -1;
+        waiting.clear();
+        if (tree.root < 0 || begin > end) return;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double along = direction[axis];
+            inverse[axis] = 1.0 / (std::abs(along) < 1e-200 ? 1e-200 : along);
+        }
+        waiting.push_back({static_cast<int32_t>(tree.root), begin, end, false});
+        for (int64_t steps = 0; !waiting.empty(); ++steps) {
+            if (steps > 4 * tree.nodes) throw Failure{NO_TREE};
+            const Waiting now = waiting.back();
+            waiting.pop_back();
+            if (now.begin + before > distance + slack) continue;
+            if (now.own || tree.kind[now.node] != INNER) {
+                own(now.node, slack);
+                continue;
+            }
+            const double* plane = tree.plane + 4 * int64_t{now.node};
+            const double rise = dot(plane, direction), base = dot(plane, origin) - plane[3];
+            const double one = base + rise * now.begin, two = base + rise * now.end;
+            Waiting sides[2];
+            int count = 0;
+            for (int k = 0; k < 2; ++k) {  // the farther side first: it waits longer
+                const bool front = (one < 0.0) == (k == 0);
+                const double side = front ? 1.0 : -1.0;
+                const int32_t child = front ? tree.front[now.node] : tree.back[now.node];
+                if (child < 0 || std::max(side * one, side * two) < -slack) continue;
+                const double cut = (-side * slack - base) / rise;
+                sides[count++] = {child, side * one >= -slack ? now.begin : cut, side * two >= -slack ? now.end : cut,
+                                  false};
+            }
+            const bool crosses = tree.count[now.node] > 0 && std::min(one, two) <= slack && std::max(one, two) >= -slack;
+            if (!crosses) {
+                waiting.insert(waiting.end(), sides, sides + count);
+                continue;
+            }
+            const double arrives =
+                std::abs(one) <= slack ? now.begin : now.begin + (std::abs(one) - slack) / std::abs(rise);
+            int placed = 0;
+            while (placed < count && sides[placed].begin >= arrives) waiting.push_back(sides[placed++]);
+            waiting.push_back({now.node, arrives, now.end, true});
+            while (placed < count) waiting.push_back(sides[placed++]);
+        }
+    }
+};
+
 template <class Function>
 int32_t guarded(Function function) {
     try {
@@ -728,6 +859,25 @@ BSP_API int64_t bsp_order(
     if (status != DONE) return -static_cast<int64_t>(status);
     if (front_first) std::reverse(out, painter.out);
     return painter.out - out;
+}
+
+// Of rays, as lines.py has them, the distance (n,) and the face (n,) of the first hit; infinite and -1 for a miss.
+BSP_API int32_t bsp_first_hits(
+    const RaysView* view, const double* origin, const double* direction, const double* begin, const double* end,
+    const double* before, int64_t count, double slack, double* distance, int64_t* face) {
+    return guarded([&] {
+        Caster caster{*view};
+        for (int64_t ray = 0; ray < count; ++ray) {
+            caster.origin = origin + 3 * ray;
+            caster.direction = direction + 3 * ray;
+            caster.begin = begin[ray];
+            caster.end = end[ray];
+            caster.before = before[ray];
+            caster.cast(slack);
+            distance[ray] = caster.distance;
+            face[ray] = caster.face;
+        }
+    });
 }
 
 // The triangles (t, 3) that fragments are fanned into, by place in the corners, and the fragment of each.

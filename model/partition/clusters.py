@@ -56,6 +56,26 @@ class Clusters:
         """(k,) which of the nodes (k,) have boxes."""
         return self._top[node] >= 0
 
+    @property
+    def flat(self) -> tuple[Floats, Numbers, Numbers, Numbers]:
+        """All boxes (n, 6), low and high, those of the fragments (f,) first; the first box in each and how many (n, 2);
+        the box of each node (k,), -1 for none; and the fragments."""
+        counts = [len(boxes) for boxes, _, _ in self._levels]
+        offsets = np.cumsum([0, *counts])
+        below = [0, *offsets[: max(len(counts) - 1, 0)]]
+        boxes = [boxes.reshape(-1, 6) for boxes, _, _ in self._levels]
+        inside = [
+            np.column_stack((first + offset, number))
+            for (_, first, number), offset in zip(self._levels, below, strict=False)
+        ]
+        top = np.where(self._top >= 0, self._top + (offsets[-2] if counts else 0), -1)
+        return (
+            np.ascontiguousarray(np.concatenate([np.zeros((0, 6)), *boxes]), np.float64),
+            np.ascontiguousarray(np.concatenate([np.zeros((0, 2), np.int64), *inside]), np.int64),
+            np.ascontiguousarray(top, np.int64),
+            np.ascontiguousarray(self._fragments, np.int64),
+        )
+
     def near(
         self, origin: Floats, direction: Floats, node: Numbers, begin: Floats, end: Floats, slack: float
     ) -> tuple[Numbers, Numbers]:

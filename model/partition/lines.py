@@ -81,6 +81,13 @@ class Borders:
             fragment = np.repeat(np.arange(len(sizes)), sizes)
             self._all = self._sides(fragment, np.arange(len(fragment)))
 
+    @property
+    def all(self) -> Floats:
+        """(c, 4) of all fragments, after each other."""
+        self.prepare()
+        assert self._all is not None
+        return self._all
+
     def cover(self, fragment: Numbers, points: Floats, slack: float) -> NDArray[np.bool_]:
         """(k,) whether points (k, 3) in the planes of fragments (k,) lie on them, or at most `slack` beside."""
         starts = self._tree.starts

@@ -95,6 +95,7 @@ def _declared(compiled: ctypes.CDLL) -> ctypes.CDLL:
         ("bsp_copy", None, (_ADDRESS,) * 11),
         ("bsp_free", None, (_ADDRESS,)),
         ("bsp_order", _COUNT, (order, _ADDRESS, _NUMBER, _NUMBER, _ADDRESS, _COUNT)),
+        ("bsp_first_hits", _NUMBER, (*6 * (_ADDRESS,), _COUNT, ctypes.c_double, _ADDRESS, _ADDRESS)),
         ("bsp_fans", None, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS)),
         ("proximity_build", _COUNT, (_ADDRESS, _COUNT, _ADDRESS, _ADDRESS, _ADDRESS)),
         ("proximity_distance", _NUMBER, (_ADDRESS, _ADDRESS, _ADDRESS, ctypes.c_double, _ADDRESS, _ADDRESS)),
@@ -147,7 +148,7 @@ def build(faces: Faces, progress: Callable[[int, int], None] | None = None) -> T
         status = compiled.bsp_build(view, epsilon, callback, ctypes.byref(handle))
         if raised:
             raise raised[0]
-        _check(status)
+        check(status)
         tree = _taken(compiled, handle, faces, epsilon, None)
     finally:
         compiled.bsp_free(handle)
@@ -162,12 +163,12 @@ def insert(tree: Tree, moving: Faces) -> Tree:
     compiled = library()
     faces = joined((tree.faces, moving))
     faces_view, faces_held = _faces_view(faces)
-    tree_view, tree_held = _tree_view(tree)
+    before, tree_held = tree_view(tree)
     handle = _ADDRESS()
     try:
-        _check(
+        check(
             compiled.bsp_insert(
-                faces_view, tree_view, tree.faces.count, len(tree.faces.points), tree.epsilon, ctypes.byref(handle)
+                faces_view, before, tree.faces.count, len(tree.faces.points), tree.epsilon, ctypes.byref(handle)
             )
         )
         return _taken(compiled, handle, faces, tree.epsilon, tree)
@@ -180,7 +181,7 @@ class Order:
     """The painter's order of one tree, as `order.Sorter` has it. Raises ValueError for a tree that cannot be one."""
 
     def __init__(self, tree: Tree) -> None:
-        _tree_view(tree)  # which looks at every number that is followed
+        tree_view(tree)  # which looks at every number that is followed
         room = np.empty((len(tree.kind) + 1) * _NODE.itemsize, np.int8)
         nodes = room[-room.ctypes.data % _NODE.itemsize :][: len(tree.kind) * _NODE.itemsize].view(_NODE)
         for name in ("plane", *_LINKS):
@@ -206,7 +207,7 @@ class Order:
         towards = _plain(np.asarray(eye, float).reshape(3), np.float64)
         out = np.empty(room, np.int64)
         count = library().bsp_order(view, towards.ctypes.data, parallel, front_first, out.ctypes.data, room)
-        _check(-min(count, 0))
+        check(-min(count, 0))
         return out[:count]
 
 
@@ -219,7 +220,8 @@ def _fans(starts: NDArray[np.int32]) -> tuple[Numbers, Numbers]:
     return triangles, fragment_of
 
 
-def _check(status: int) -> None:
+def check(status: int) -> None:
+    """Raises what a status of the compiled code stands for."""
     if status:
         kind, words = _FAILURES[status]
         raise kind(words)
@@ -248,7 +250,8 @@ def _faces_view(faces: Faces) -> tuple[_Faces, tuple[NDArray, ...]]:
     return _Faces(*(array.ctypes.data for array in held), len(points), count), held
 
 
-def _tree_view(tree: Tree) -> tuple[_Tree, tuple[NDArray, ...]]:
+def tree_view(tree: Tree) -> tuple[_Tree, tuple[NDArray, ...]]:
+    """The tree as C has it, after a look at every number that is followed there, and what must live as long."""
     points, plane = _plain(tree.points, np.float64), _plain(tree.plane, np.float64)
     corners, starts, source = (_plain(array, np.int32) for array in (tree.corners, tree.starts, tree.source))
     links = tuple(_plain(array, np.int32) for array in (tree.front, tree.back, tree.first, tree.count))

@@ -13,6 +13,8 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from . import native
+from .casting import Caster
 from .clusters import Clusters, Floats, Numbers
 from .lines import Borders, Lines, Scene
 from .polygons import spread
@@ -103,6 +105,10 @@ class Rays:
     def _clusters(self) -> Clusters:
         return Clusters(self.tree)
 
+    @cached_property
+    def _caster(self) -> Caster:
+        return Caster(self.tree, self._clusters, self._borders.all, self.size)
+
     def hit(self, origin: ArrayLike, direction: ArrayLike, near: float = 0.0, far: float = np.inf) -> Hit | None:
         """The first face on a ray; see `first_hit`."""
         line = self._scene.lines(origin, direction, near, far)
@@ -138,6 +144,8 @@ class Rays:
 
         `near` and `far` are one for all or (n,). Raises ValueError as `first_hit` does.
         """
+        if native.available():
+            return self._caster.first(self._scene.lines(origins, directions, near, far), WALK * self.tree.epsilon)
         found = self.all(origins, directions, near, far)
         count = len(np.asarray(origins, float).reshape(-1, 3))
         distance, face = np.full(count, np.inf), np.full(count, -1)
