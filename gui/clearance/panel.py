@@ -4,7 +4,7 @@ it is made before it is looked at."""
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import QInputDialog, QVBoxLayout, QWidget
@@ -184,7 +184,7 @@ class ClearancePanel(QWidget):
         dialog.textValueSelected.connect(answered)
         dialog.open()
 
-    def _do(self, name: str, *arguments: object, label: str, **more: object) -> None:
+    def _do(self, name: str, *arguments: Any, label: str, **more: Any) -> None:
         try:
             self._window.session.do(name, *arguments, label=label, **more)
         except Refusal as refusal:
