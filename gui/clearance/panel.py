@@ -158,9 +158,7 @@ class ClearancePanel(QWidget):
         self._follow()
 
     def _ask_of(self, one: str, other: str, clearance: float | None = None, touching: bool = False) -> None:
-        more: dict[str, Any] = (
-            {"clearance": clearance} if clearance is not None else {"touching": True} if touching else {}
-        )
+        more = {"clearance": clearance} if clearance is not None else {"touching": True} if touching else {}
         self._do("check_pair", one, other, label="Meant to touch" if touching else "Clearance of a pair", **more)
 
     def _ask_clearance(self, pair: Finding | PairCheck) -> None:

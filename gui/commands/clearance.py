@@ -37,8 +37,7 @@ def _meant(window: MainWindow) -> bool:
 def _touch(window: MainWindow) -> None:
     pair = _two(window)
     assert pair is not None
-    more = {} if _meant(window) else {"touching": True}
-    window.session.do("check_pair", *pair, label="Meant to touch", **more)
+    window.session.do("check_pair", *pair, touching=not _meant(window), label="Meant to touch")
 
 
 CLEARANCE_COMMANDS: tuple[Command, ...] = (
