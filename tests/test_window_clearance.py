@@ -43,7 +43,7 @@ def checked(make_window):
 
 
 def listed(driver):
-    return [(row.names, row.fault) for row in driver.window.clearance.page.table.pairs.rows]
+    return [(row.names, row.fault) for row in driver.window.clearance.page.table.listed.rows]
 
 
 def click(driver, number):
@@ -65,7 +65,7 @@ def ask(driver, text):
 def test_pairs_come_worst_first_and_follow_the_clearance(checked):
     page = checked.window.clearance.page
     assert listed(checked) == [(("base", "pin"), "overlap")]
-    assert page.table.pairs.rows[0].overlap == pytest.approx(4 * 4 * 2)
+    assert page.table.listed.rows[0].overlap == pytest.approx(4 * 4 * 2)
     ask(checked, "0.5")
     assert checked.document.checks.clearance == 0.5
     assert listed(checked) == [
@@ -212,13 +212,13 @@ def test_a_check_that_is_given_up_leaves_the_last_list_and_the_document(checked)
     page, checks, document = checked.window.clearance.page, checked.window.clearance.checks, checked.document
     before = listed(checked)
     checked.qtbot.mouseClick(page.check, LEFT)
-    assert checks.at_work and page.cancel.isVisible()
-    checked.qtbot.mouseClick(page.cancel, LEFT)
-    assert not checks.at_work and not page.cancel.isVisible()
+    assert checks.at_work and page.working.cancel.isVisible()
+    checked.qtbot.mouseClick(page.working.cancel, LEFT)
+    assert not checks.at_work and not page.working.cancel.isVisible()
     assert checked.document is document and listed(checked) == before
     checked.qtbot.mouseClick(page.check, LEFT)
     settled(checked)
-    assert listed(checked) == before and not page.cancel.isVisible()
+    assert listed(checked) == before and not page.working.cancel.isVisible()
 
 
 def test_nothing_to_check_is_said(make_window):

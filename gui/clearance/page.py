@@ -9,7 +9,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QMenu,
-    QProgressBar,
     QSizePolicy,
     QSplitter,
     QToolButton,
@@ -20,6 +19,7 @@ from PySide6.QtWidgets import (
 from ...model.proximity.words import remark_words, report_words
 from ..icons import icon
 from ..panels.number_field import NumberField, Steps
+from ..panels.work_row import WorkRow
 from ..theme import LIGHT, colours_now
 from .pair_table import PairTable
 from .rule_list import RuleList
@@ -74,22 +74,8 @@ class ClearancePage(QWidget):
         line.addStretch(1)
         line.addWidget(self.out)
 
-        self.working = QWidget(self)
-        self.doing = QLabel(self.working)
-        self.doing.setProperty("muted", True)
-        self.doing.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
-        self.progress = QProgressBar(self.working)
-        self.progress.setTextVisible(False)
-        self.progress.setAccessibleName("Progress")
-        self.cancel = self._button("cancel", "Cancel", "Give up this check; the next change begins another one")
-        self.cancel.clicked.connect(self.cancel_asked)
-        line = QHBoxLayout(self.working)
-        line.setContentsMargins(10, 0, 6, 4)
-        line.setSpacing(8)
-        line.addWidget(self.doing, 3)
-        line.addWidget(self.progress, 2)
-        line.addWidget(self.cancel)
-        self.working.hide()
+        self.working = WorkRow("Give up this check; the next change begins another one", self)
+        self.working.cancel_asked.connect(self.cancel_asked)
 
         self.remarks = QLabel(self)
         self.remarks.setProperty("muted", True)
@@ -137,7 +123,7 @@ class ClearancePage(QWidget):
         self.remarks.setVisible(bool(remarks))
         if not findings and self.table.hasFocus():
             self.check.setFocus()  # else Qt would pick a field anywhere in the window
-        self.table.pairs.set_rows(findings)
+        self.table.listed.set_rows(findings)
         self.table.setVisible(bool(findings))
         self.out.setEnabled(report is not None and report.solids > 1)
         self._arrange()
@@ -151,11 +137,8 @@ class ClearancePage(QWidget):
 
     def show_work(self, words: str, done: int = 0, total: int = 0) -> None:
         """What is under way, "" for nothing."""
-        self.working.setVisible(bool(words))
+        self.working.show_work(words, done, total)
         self.check.setEnabled(not words)
-        self.doing.setText(words)
-        self.progress.setRange(0, total)
-        self.progress.setValue(done)
 
     def _arrange(self) -> None:
         self.parts.setVisible(not self.table.isHidden() or not self.rules.isHidden())

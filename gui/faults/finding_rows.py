@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from PySide6.QtCore import QAbstractTableModel, QModelIndex, QObject, QPersistentModelIndex, Qt
-from PySide6.QtGui import QColor
 
 from ..panels.property_edit import sentence
+from ..panels.row_table import RowModel
 from ..status import figure
 from ..theme import colours_now
 from .checked import SEVERE, Kind, kinds_of
@@ -32,7 +32,6 @@ TIPS = (
     "How near things are, or how high a sliver is",
     "In the world: x, y, z",
 )
-Index = QModelIndex | QPersistentModelIndex
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -106,75 +105,41 @@ def rows_of(reports: Sequence[NodeFaults]) -> list[FindingRow]:
     return sorted(rows, key=lambda row: (row.order, -row.finding.size))
 
 
-class FindingModel(QAbstractTableModel):
-    """`rows` are those that are shown, in their order."""
+class FindingModel(RowModel):
+    """Of FindingRows, of one kind or of all."""
 
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._every: list[FindingRow] = []
+    titles, tips, figures = TITLES, TIPS, frozenset({SIZE, GAP})
+
+    def __init__(self) -> None:
+        super().__init__(KIND)
         self._kind: Kind | None = None
-        self._sorted = (KIND, Qt.SortOrder.AscendingOrder)
-        self.rows: list[FindingRow] = []
-
-    def set_rows(self, rows: list[FindingRow]) -> None:
-        self._every = rows
-        self._fill()
 
     def set_kind(self, kind: Kind | None) -> None:
         """Show one kind alone, or all with None."""
         if kind != self._kind:
             self._kind = kind
-            self._fill()
+            self.fill()
 
-    def _fill(self) -> None:
-        column, order = self._sorted
-        rows = [row for row in self._every if self._kind in (None, row.kind)]
-        keys: dict[int, Any] = {
+    def shown(self, row: FindingRow) -> bool:
+        return self._kind in (None, row.kind)
+
+    def key(self, column: int) -> Callable[[FindingRow], Any]:
+        keys: dict[int, Callable[[FindingRow], Any]] = {
             SOLID: lambda row: row.report.name.casefold(),
             KIND: lambda row: (row.order, -row.finding.size),
             SIZE: lambda row: row.finding.size,
             GAP: lambda row: row.finding.gap,
             PLACE: lambda row: tuple(row.place.tolist()),
         }
-        rows.sort(key=keys[column], reverse=order == Qt.SortOrder.DescendingOrder)
-        self.beginResetModel()
-        self.rows = rows
-        self.endResetModel()
+        return keys[column]
 
-    # What Qt asks for.
+    def texts(self, row: FindingRow) -> tuple[str, ...]:
+        return row.texts()
 
-    def rowCount(self, parent: Index | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(self.rows)
+    def ink(self, row: FindingRow, column: int) -> str:
+        if column != KIND:
+            return ""
+        return colours_now().error if row.finding.kind in SEVERE else colours_now().warning
 
-    def columnCount(self, parent: Index | None = None) -> int:
-        return 0 if parent is not None and parent.isValid() else len(TITLES)
-
-    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        if not index.isValid() or index.row() >= len(self.rows):
-            return None
-        row, column = self.rows[index.row()], index.column()
-        if role == Qt.ItemDataRole.DisplayRole:
-            return row.texts()[column]
-        if role == Qt.ItemDataRole.TextAlignmentRole and column in (SIZE, GAP):
-            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        if role == Qt.ItemDataRole.ForegroundRole and column == KIND:
-            return QColor(colours_now().error if row.finding.kind in SEVERE else colours_now().warning)
-        if role == Qt.ItemDataRole.ToolTipRole:
-            return row.about.about if column == KIND else row.texts()[column]
-        return None
-
-    def headerData(self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        if orientation != Qt.Orientation.Horizontal:
-            return None
-        if role == Qt.ItemDataRole.DisplayRole:
-            return TITLES[section]
-        if role == Qt.ItemDataRole.ToolTipRole:
-            return TIPS[section]
-        if role == Qt.ItemDataRole.TextAlignmentRole and section in (SIZE, GAP):
-            return Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-        return None
-
-    def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
-        if column >= 0:
-            self._sorted = (column, order)
-            self._fill()
+    def tip(self, row: FindingRow, column: int) -> str:
+        return row.about.about if column == KIND else row.texts()[column]

@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QMenu,
-    QProgressBar,
     QSizePolicy,
     QSplitter,
     QToolButton,
@@ -26,6 +25,7 @@ from ...model.operations.curves.mending import REPAIRS as OUTLINE_REPAIRS
 from ..icons import icon
 from ..panels.number_field import NumberField, Steps
 from ..panels.property_edit import sentence
+from ..panels.work_row import WorkRow
 from .checked import Kind, counts_by_kind
 from .checks import millimetres_from
 from .finding_rows import GAP, SOLID, rows_of
@@ -103,22 +103,8 @@ class FaultsPage(QWidget):
         line.addWidget(self.repair)
         line.addWidget(self.copy)
 
-        self.working = QWidget(self)
-        self.doing = QLabel(self.working)
-        self.doing.setProperty("muted", True)
-        self.doing.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # long words widen nothing
-        self.progress = QProgressBar(self.working)
-        self.progress.setTextVisible(False)
-        self.progress.setAccessibleName("Progress")
-        self.cancel = self._button("cancel", "Cancel", "Give up what is under way")
-        self.cancel.clicked.connect(self.cancel_asked)
-        line = QHBoxLayout(self.working)
-        line.setContentsMargins(10, 0, 6, 4)
-        line.setSpacing(8)
-        line.addWidget(self.doing, 3)
-        line.addWidget(self.progress, 2)
-        line.addWidget(self.cancel)
-        self.working.hide()
+        self.working = WorkRow("Give up what is under way", self)
+        self.working.cancel_asked.connect(self.cancel_asked)
 
         self.empty = QLabel(EMPTY, self)
         self.empty.setProperty("muted", True)
@@ -190,11 +176,8 @@ class FaultsPage(QWidget):
 
     def show_work(self, words: str, done: int = 0, total: int = 0) -> None:
         """What is under way, "" for nothing."""
-        self.working.setVisible(bool(words))
+        self.working.show_work(words, done, total)
         self.check.setEnabled(not words)
-        self.doing.setText(words)
-        self.progress.setRange(0, total)
-        self.progress.setValue(done)
 
     def set_repairable(self, whose: str, why_not: str = "", kinds: Collection[str] = (), hole: bool = False) -> None:
         """Whose faults a repair would mend, in words; or why none can be. `kinds` are those of the reports that are

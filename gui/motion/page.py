@@ -6,15 +6,14 @@ from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
-    QProgressBar,
     QPushButton,
     QSizePolicy,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
 
 from ..icons import icon
+from ..panels.work_row import WorkRow
 from .contact_rows import ContactTable
 from .motion_form import MotionForm
 from .play_bar import PlayBar
@@ -60,27 +59,8 @@ class MotionPage(QWidget):
         head.addWidget(self.time)
         head.addWidget(self.words, 1)
         head.addWidget(self.first)
-        self.working = QWidget(self)
-        self.doing = QLabel(self.working)
-        self.doing.setProperty("muted", True)
-        self.doing.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)  # long words widen nothing
-        self.progress = QProgressBar(self.working)
-        self.progress.setTextVisible(False)
-        self.progress.setAccessibleName("Progress")
-        self.cancel = QToolButton(self.working)
-        self.cancel.setProperty("flat", True)
-        self.cancel.setIcon(icon("cancel"))
-        self.cancel.setText("Cancel")
-        self.cancel.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
-        self.cancel.setToolTip("Give up looking for contacts")
-        self.cancel.clicked.connect(self.cancel_asked)
-        line = QHBoxLayout(self.working)
-        line.setContentsMargins(10, 0, 6, 2)
-        line.setSpacing(8)
-        line.addWidget(self.doing, 3)
-        line.addWidget(self.progress, 2)
-        line.addWidget(self.cancel)
-        self.working.hide()
+        self.working = WorkRow("Give up looking for contacts", self)
+        self.working.cancel_asked.connect(self.cancel_asked)
         self.right = QWidget(self)
         column = QVBoxLayout(self.right)
         column.setContentsMargins(0, 2, 0, 0)
@@ -103,10 +83,7 @@ class MotionPage(QWidget):
 
     def show_work(self, words: str, done: int = 0, total: int = 0) -> None:
         """What is under way, "" for nothing."""
-        self.working.setVisible(bool(words))
-        self.doing.setText(words)
-        self.progress.setRange(0, total)
-        self.progress.setValue(done)
+        self.working.show_work(words, done, total)
 
     def say(self, words: str, first: bool = False) -> None:
         """What meets first, or why nothing is known; `first`: there is such a moment to go to."""
