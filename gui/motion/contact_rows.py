@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 KINDS = {
     OVERLAPPING: "Overlap", TOUCHING: "Touch", INSIDE: "Inside", AROUND: "Around", APART: "Too near",
 }  # fmt: skip
-TITLES = ("Part", "Other part", "Contact", "By")
+TITLES = ("Part", "And", "Contact", "By")
 KIND, BY = 2, 3
 
 

@@ -99,6 +99,7 @@ class MotionForm(QWidget):
         self.moving_words = _muted("The selected nodes go by x, y, z in mm and turn about", self)
         self.moving_words.setContentsMargins(0, 6, 0, 0)
         grid.addWidget(self.moving_words, 3, 0, 1, 6)
+        grid.addWidget(self.set_in, 5, 0, 1, 6, Qt.AlignmentFlag.AlignLeft)
         moving = QHBoxLayout()
         moving.setSpacing(4)
         for field in self.by:
@@ -107,10 +108,10 @@ class MotionForm(QWidget):
         moving.addWidget(self.axis)
         moving.addWidget(self.degrees)
         moving.addWidget(QLabel("°", self))
-        moving.addWidget(self.set_in)
+        moving.addStretch(1)
         grid.addLayout(moving, 4, 0, 1, 6)
         grid.setColumnStretch(6, 1)
-        grid.setRowStretch(5, 1)
+        grid.setRowStretch(6, 1)
 
     def show_motion(self, document: Document, motion: Motion | None) -> None:
         """The motions of a document, and the values of one."""
