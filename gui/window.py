@@ -403,6 +403,7 @@ class MainWindow(QMainWindow):
         self.files.background.close()
         self.hidden_surfaces.close()
         self.pipeline.close_work()
+        self.clearance.close_work()
         self.evaluation.close()
         self.viewport.close_viewer()
         super().closeEvent(event)

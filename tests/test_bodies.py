@@ -11,12 +11,16 @@ from solidtree.model.script import (
     box,
     circle,
     clearances,
+    contacts_in_motion,
     cylinder,
     distance,
     document_of,
+    first_contact,
     halfspace,
     inside,
     meant_to_touch,
+    motion,
+    moved_by,
     nearest,
     overlap,
     sphere,
@@ -139,6 +143,28 @@ def test_scripts_refuse_what_has_no_answer():
     for clearance in (-1, np.nan, np.inf):
         with pytest.raises(Refusal, match="a clearance"):
             clearances([box(1), box(1).at(3)], clearance)
+
+
+@pytest.mark.parametrize(
+    "question",
+    [
+        lambda: clearances("box"),
+        lambda: clearances([box(1), None]),
+        lambda: meant_to_touch(box(1), "a", "b"),
+        lambda: contacts_in_motion(box(1)),
+        lambda: distance(box(1), box(1), np.nan),
+        lambda: distance(sphere(1), box(1), "0.1"),
+        lambda: nearest(box(1), [(1e200, 0, 0)]),
+        lambda: inside(box(1), "here"),
+        lambda: first_contact(box(1), None, [moved_by()]),
+        lambda: first_contact(box(1), box(1).at(3), [moved_by(), moved_by(1)], ["a", "b"]),
+        lambda: first_contact(box(1), box(1).at(3), None),
+        lambda: motion(document_of(box(1)), "far", start=-1e308, end=1e308),
+    ],
+)
+def test_bad_questions_are_refused_in_words(question):
+    with pytest.raises(Refusal):
+        question()
 
 
 def test_solids_that_touch_far_from_the_origin_touch():

@@ -14,7 +14,17 @@ from solidtree.model.proximity.checking import check_document, table_of
 from solidtree.model.proximity.checks import Checks
 from solidtree.model.proximity.memo import PairMemo
 from solidtree.model.proximity.words import finding_words, remark_words, report_words
-from solidtree.model.script import box, circle, document_of, halfspace, in_words, open_document, sphere
+from solidtree.model.script import (
+    box,
+    circle,
+    clearances,
+    document_of,
+    halfspace,
+    in_words,
+    open_document,
+    sphere,
+    with_clearance,
+)
 from solidtree.model.worker.lane import Lane
 from solidtree.model.worker.messages import PairsChecked, Progress
 
@@ -198,3 +208,13 @@ def test_of_very_many_findings_the_worst_are_told():
     assert (len(report.findings), report.left_out) == (10, 21 * 20 // 2 - 10)
     assert [finding.fault for finding in report.findings[:5]] == ["overlap"] * 4 + ["near"]
     assert report_words(report).endswith(": 4 overlap, 206 are too near. Here are the worst 10.")
+
+
+def test_equal_solids_in_one_place_are_each_asked_what_is_asked_of_them():
+    """Whichever clearance comes last, the larger one is heard."""
+    names = [("a", 5, "a2", 1), ("a", 1, "a2", 5)]
+    for one, first, other, second in names:
+        document = document_of(box(10).named(one), box(10).named(other), box(10).at(12).named("b"))
+        document = with_clearance(with_clearance(document, first, one, "b"), second, other, "b")
+        near = [(pair["a"], pair["b"]) for pair in clearances(document) if pair["relation"] == "apart"]
+        assert near == [(one if first == 5 else other, "b")]

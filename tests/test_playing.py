@@ -99,6 +99,40 @@ def test_what_is_quicker_than_the_steps_is_found_between_them():
     assert first is not None and first.time == pytest.approx(0.5, abs=1e-6)
 
 
+def test_a_whole_turn_between_two_steps_is_none_that_stands_still():
+    """A bar that turns once meets a post behind it after half a turn."""
+    t = parameter("t", 0)
+    bar, post = box(10, 2, 2).at(0, -1).turned(z=t * 360).named("bar"), box(1).at(-8, -0.5).named("post")
+    first = play(motion(document_of(bar, post), "turn", steps=1), between=True).first
+    assert first is not None and (first.one, first.other) == (0, 1)
+    reach = np.hypot(7.0, 0.5)  # of the post's near corners, at which the bar's side, 1 mm off its middle, arrives
+    angle = 180 - np.degrees(np.arctan2(0.5, 7.0)) - np.degrees(np.arcsin(1 / reach))
+    assert first.time == pytest.approx(4 * angle / 360, abs=2e-3)
+
+
+def test_parts_that_grow_into_each_other_have_a_first_contact():
+    t = parameter("t", 0)
+    scene = document_of(box(1 + t * 30, 2, 2).named("grows"), box(2).at(15).named("stands"))
+    first = play(motion(scene, "growth", seconds=4)).first
+    assert first is not None and first.time == pytest.approx(4 * 14 / 30, abs=4 / 50 / 1000)
+    assert first.place[0] == pytest.approx(15, abs=1e-2)
+
+
+def test_what_touches_and_then_goes_in_meets_when_it_does():
+    t = parameter("t", 0)
+    scene = document_of(box(10).at(t * 5).named("goes"), box(10).at(10).named("stands"))
+    one, other = (root.id for root in scene.solids)
+    first = play(motion(scene.with_(checks=Checks(0, (PairCheck(one, other, touching=True),))), "push")).first
+    assert first is not None and first.time == pytest.approx(0, abs=1e-3)
+
+
+def test_what_slides_a_hair_above_a_plate_is_told_of_all_the_same():
+    t = parameter("t", 0)
+    plate = (box(100, 10, 2) + box(2, 10, 20).at(20)).named("plate")
+    first = play(motion(document_of(box(3).at(t * 40, 3, 2 + 6e-5), plate), "slide", steps=1), between=True).first
+    assert first is not None and first.time < 4 * 17 / 40
+
+
 def test_only_what_changes_its_shape_is_cut_again():
     t = parameter("t", 1)
     document = motion(

@@ -241,8 +241,28 @@ def test_the_list_is_copied_and_the_report_written(checked, tmp_path):
     assert rows[1][:3] == ["base", "pin", "Overlap"]
     out = tmp_path / "report.html"
     checked.window.clearance.write_report(str(out))
-    checked.qtbot.waitUntil(lambda: not checked.window.files.background.working, timeout=60000)
+    checked.qtbot.waitUntil(lambda: not checked.window.clearance.reporting.at_work, timeout=60000)
     assert "overlap by 32 mm³" in out.read_text()
     checked.window.clearance.write_report(str(tmp_path / "no" / "report.html"))
-    checked.qtbot.waitUntil(lambda: not checked.window.files.background.working, timeout=60000)
+    checked.qtbot.waitUntil(lambda: not checked.window.clearance.reporting.at_work, timeout=60000)
     assert "was not written" in checked.window.statusBar().currentMessage()
+
+
+def test_what_was_typed_and_refused_gives_way_to_another_document(checked):
+    ask(checked, "abc")
+    field = checked.window.clearance.page.clearance
+    assert field.text() == "abc"
+    checked.open(document_of(one=box(1), two=box(1).at(5)))
+    settled(checked)
+    assert field.text() == "0"
+    ask(checked, "abc")
+    checked.session.do("set_clearance", 0.5)
+    assert field.text() == "0.5"
+
+
+def test_a_window_closes_while_a_report_is_written(checked, tmp_path):
+    out = tmp_path / "report.html"
+    checked.window.clearance.write_report(str(out))
+    assert checked.window.clearance.page.writing.isVisible()
+    checked.window.close()
+    assert not checked.window.clearance.reporting.at_work and not out.exists()

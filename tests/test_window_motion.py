@@ -154,3 +154,37 @@ def test_a_changed_document_is_looked_at_again_and_the_picture_is_at_rest(make_w
     panel.rest()
     viewer.render()
     assert np.abs(viewer.pixels().astype(int) - plain).max() <= 2
+
+
+def test_a_drag_takes_the_motion_out_of_the_picture(make_window):
+    """What is typed meanwhile goes from the document's place, and is shown there."""
+    driver, panel = opened(make_window, pushing())
+    arm = driver.document.solids[0].id
+    panel.page.bar.slider.setValue(14)
+    panel.page.table.selectRow(0)
+    assert moves(driver)
+    driver.session.select([arm])
+    driver.keys("M", driver.window.viewport)
+    driver.keys("7", driver.window.viewport)
+    assert not moves(driver) and not panel.picture.away and panel.page.table.current is None
+    driver.keys("Return", driver.window.viewport)
+    driver.settle()
+    assert panel.page.form.set_in.isEnabled()
+    assert "7" in str(driver.document.solids[0].placement.steps[-1].numbers[0])
+
+
+def test_a_drag_in_a_motion_that_cuts_anew_begins_with_the_document(make_window):
+    t = parameter("t", 0)
+    scene = motion(document_of(box(5 + t * 9).named("grows"), box(2).at(30).named("stands")), "growth", steps=4)
+    driver, panel = opened(make_window, scene)
+    stands = driver.document.solids[1].id
+    panel.page.bar.slider.setValue(2)
+    assert driver.session.previewing
+    driver.session.select([stands])
+    driver.keys("M", driver.window.viewport)
+    assert not driver.session.previewing and not panel.picture.away
+    driver.keys("7", driver.window.viewport)
+    driver.keys("Return", driver.window.viewport)
+    driver.settle()
+    assert driver.document.parameters == scene.parameters
+    assert driver.document.solids[1].placement.matrix()[0, 3] == pytest.approx(37)

@@ -40,6 +40,7 @@ class ClearancePage(QWidget):
     check_asked = Signal()
     cancel_asked = Signal()
     report_asked = Signal()
+    report_cancelled = Signal()
     clearance_typed = Signal(str)
     clearance_stepped = Signal(float)
 
@@ -76,6 +77,8 @@ class ClearancePage(QWidget):
 
         self.working = WorkRow("Give up this check; the next change begins another one", self)
         self.working.cancel_asked.connect(self.cancel_asked)
+        self.writing = WorkRow("Give up the report", self)
+        self.writing.cancel_asked.connect(self.report_cancelled)
 
         self.remarks = QLabel(self)
         self.remarks.setProperty("muted", True)
@@ -97,6 +100,7 @@ class ClearancePage(QWidget):
         layout.setSpacing(0)
         layout.addWidget(bar)
         layout.addWidget(self.working)
+        layout.addWidget(self.writing)
         layout.addWidget(self.told)
         layout.addWidget(self.remarks)
         layout.addWidget(self.parts, 1)
@@ -104,8 +108,11 @@ class ClearancePage(QWidget):
         self._report: Report | None = None
         self.show_report(None)
 
-    def show_document(self, document: Document) -> None:
-        """What is asked."""
+    def show_document(self, document: Document, anew: bool = False) -> None:
+        """What is asked; `anew`: also where something else is typed."""
+        if anew:
+            self.clearance.setModified(False)
+            self.clearance.set_fault(False)
         if not self.clearance.isModified():
             self.clearance.set_value(document.checks.clearance)
         self.rules.show_rules(document)
@@ -139,6 +146,10 @@ class ClearancePage(QWidget):
         """What is under way, "" for nothing."""
         self.working.show_work(words, done, total)
         self.check.setEnabled(not words)
+
+    def show_report_work(self, words: str) -> None:
+        """A report is being written, "" for none."""
+        self.writing.show_work(words)
 
     def _arrange(self) -> None:
         self.parts.setVisible(not self.table.isHidden() or not self.rules.isHidden())

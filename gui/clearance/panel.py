@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from ..window import MainWindow
     from .page import ClearancePage
     from .pair_picture import PairPicture
+    from .report_process import ReportProcess
 
 
 class ClearancePanel(QWidget):
@@ -39,6 +40,7 @@ class ClearancePanel(QWidget):
         self.page: ClearancePage | None = None
         self.picture: PairPicture | None = None
         self.checks = PairChecks(window)
+        self.reporting: ReportProcess | None = None
         self.checks.refused.connect(self.refused)
 
     # What happens.
@@ -61,11 +63,11 @@ class ClearancePanel(QWidget):
         self.checks.session_changed(before, after)
         old, new = before.document, after.document
         if old.checks is not new.checks or old.solids is not new.solids:
-            self._follow()
+            self._follow(old.checks.clearance != new.checks.clearance)
 
     def document_opened(self) -> None:
         self.checks.document_opened()
-        self._follow()
+        self._follow(True)
 
     # The page.
 
@@ -80,6 +82,7 @@ class ClearancePanel(QWidget):
         page.check_asked.connect(self.checks.check)
         page.cancel_asked.connect(self.checks.cancel)
         page.report_asked.connect(self.save_report)
+        page.report_cancelled.connect(self._cancel_report)
         page.clearance_typed.connect(self._type_clearance)
         page.clearance_stepped.connect(self._set_clearance)
         page.table.chosen.connect(self._choose)
@@ -110,9 +113,10 @@ class ClearancePanel(QWidget):
         self.page.table.choose_like(chosen)
         self._choose(self.page.table.current, fly=False)
 
-    def _follow(self) -> None:
+    def _follow(self, anew: bool = False) -> None:
+        """Show what the document asks; `anew`: also where something else is typed."""
         if self.page is not None:
-            self.page.show_document(self._window.session.document)
+            self.page.show_document(self._window.session.document, anew)
 
     def _choose(self, finding: Finding | None, fly: bool = True) -> None:
         if self.picture is None or not self.in_front:
@@ -202,13 +206,33 @@ class ClearancePanel(QWidget):
 
     def write_report(self, out: str) -> None:
         """Write the report of the document as it is now, by a process of its own: its pictures take their time."""
-        from .report_process import report_by_process
+        from .report_process import ReportProcess
 
-        files, document = self._window.files, self._window.session.document
-        name = Path(out).name
-        files.background.run(
-            f"Writing {name}",
-            lambda: report_by_process(document, files.name, Path(out)),
-            lambda _: self.said.emit(f"Wrote {name}"),
-            lambda refusal: self.refused.emit(sentence(f"{name} was not written: {refusal}")),
-        )
+        if self.reporting is None:
+            self.reporting = ReportProcess(self)
+            self.reporting.ended.connect(self._reported)
+        try:
+            self.reporting.write(self._window.session.document, self._window.files.name, Path(out))
+        except Refusal as refusal:
+            self._reported(Path(out).name, str(refusal))
+            return
+        if self.page is not None:
+            self.page.show_report_work(f"Writing {Path(out).name}")
+
+    def _reported(self, name: str, fault: str) -> None:
+        if self.page is not None:
+            self.page.show_report_work("")
+        if fault:
+            self.refused.emit(f"{name} was not written: {fault}")
+        else:
+            self.said.emit(f"Wrote {name}")
+
+    def _cancel_report(self) -> None:
+        if self.reporting is not None and self.reporting.at_work:
+            self.reporting.cancel()
+            self._reported("The report", "it was cancelled")
+
+    def close_work(self) -> None:
+        """The window closes."""
+        if self.reporting is not None:
+            self.reporting.cancel()

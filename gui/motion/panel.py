@@ -46,6 +46,10 @@ class MotionPanel(QWidget):
         self.name = ""
         self._of: tuple[Document, str, bool] | None = None
         """What was asked or played: document, motion, and whether between the steps."""
+        self._own = False
+        """Whether a preview that begins or ends is the motion's."""
+        self._previewed = False
+        """Whether the motion's preview is there."""
         self._soon = QTimer(self)
         self._soon.setSingleShot(True)
         self._soon.setInterval(SOON)
@@ -78,10 +82,18 @@ class MotionPanel(QWidget):
 
     def session_changed(self, before: State, after: State) -> None:
         session = self._window.session
-        if session.previewing:
-            return
         if before.selection != after.selection and self.page is not None:
             self.page.form.show_selection(len(after.selection))
+        if self._own:
+            return
+        foreign = before.document is not after.document and (session.previewing or self._previewed)
+        if foreign and self.picture is not None and self.picture.away:
+            self._give_way()
+        elif self._previewed and before.selection != after.selection:
+            self.rest()  # what is selected is to be worked on: as the document has it
+            return
+        if session.previewing:
+            return
         if self._of is not None and session.document is not self._of[0]:
             self.rest()
             self.played, self._of = None, None
@@ -288,21 +300,37 @@ class MotionPanel(QWidget):
         from ...model.proximity.moving.parts import document_at
 
         if self._of is not None and self.motion is not None:
+            self._own = True
             try:
                 self._window.session.preview(document_at(self._of[0], self.motion, share))
+                self._previewed = True
             except Refusal as refusal:
                 self.player.pause()
                 self.refused.emit(sentence(refusal))
+            finally:
+                self._own = False
 
     def rest(self) -> None:
         """Stop, and show everything where the document has it."""
+        previewed = self._previewed
+        self._give_way()
+        if previewed and self._window.session.previewing:
+            self._own = True
+            try:
+                self._window.session.cancel()
+            finally:
+                self._own = False
+
+    def _give_way(self) -> None:
+        """Take the motion out of the picture: somebody else shows something, or nobody looks any more."""
         self.player.pause()
+        self._previewed = False
         if self.picture is not None and self.picture.away:
             self.picture.rest()
-            if self._window.session.previewing:
-                self._window.session.cancel()
         if self.page is not None:
+            self.page.table.blockSignals(True)  # it would show the moment again
             self.page.table.leave()
+            self.page.table.blockSignals(False)
 
     def _leave(self) -> None:
         """Choose no contact; without one, end the motion."""

@@ -280,6 +280,8 @@ class Handles(Tool):
 
     def _begin(self, drag: Drag, name: str, held: bool, x: float, y: float) -> None:
         assert self._picture is not None
+        if self._session.previewing:  # somebody else's: a drag goes on from the document itself
+            self._session.cancel()
         self._drag, self._name, self._held = drag, name, held
         self._start = self._session.document
         values = parameter_values(self._start.parameters)[0]

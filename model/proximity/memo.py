@@ -104,24 +104,29 @@ class PairMemo:
         """How pairs of bodies, none of which is empty, stand to each other, each below a limit in mm: see
         `bodies.relation`. `told` hears how many pairs are done, and may raise to stop: what is known is kept."""
         found: list[Relation | None] = [None] * len(asked)
-        new: list[int] = []
+        new: dict[tuple[Key, Key], tuple[Standing, Standing, float]] = {}
+        waiting: list[int] = []
         for place, (one, other, limit) in enumerate(asked):
-            known = self._relations.get(_pair(one, other))
+            pair = _pair(one, other)
+            known = self._relations.get(pair)
             if known is None or (known[1] is None and known[0] < limit):
-                new.append(place)
+                waiting.append(place)
+                if pair not in new or new[pair][2] < limit:  # of equal bodies in one place the farther question counts
+                    new[pair] = one, other, limit
             else:
                 found[place] = self._answer(one, other, limit)
+        rows = list(new.values())
         done, step = 0, FIRST_STEP
-        while done < len(new):
+        while done < len(rows):
             if told is not None:
-                told(len(asked) - len(new) + done, len(asked))
+                told(len(asked) - len(rows) + done, len(asked))
             begin = time.perf_counter()
-            some = new[done : done + step]
-            self._look_at([asked[place] for place in some])
-            for place in some:
-                found[place] = self._answer(*asked[place])
+            some = rows[done : done + step]
+            self._look_at(some)
             done += len(some)
             step = 2 * step if time.perf_counter() - begin < PAUSE else max(step // 2, 1)
+        for place in waiting:
+            found[place] = self._answer(*asked[place])
         while len(self._relations) > max(MOST_PAIRS, len(asked)):
             self._relations.popitem(last=False)
         return found

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import math
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -38,6 +39,8 @@ class Motion:
             object.__setattr__(self, field, plain)
         if self.start == self.end:
             raise Refusal(f"{what}: the parameter {self.parameter} starts and ends at {self.start:g}: nothing moves")
+        if not math.isfinite(self.end - self.start):
+            raise Refusal(f"{what}: from {self.start:g} to {self.end:g} is farther than numbers go")
         if not 0.0 < self.seconds <= LONGEST:
             raise Refusal(f"{what} takes more than 0 and at most {LONGEST:g} seconds, not {self.seconds:g}")
         if type(self.steps) is not int or not 1 <= self.steps <= MOST_STEPS:

@@ -10,6 +10,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ..document import placement
+from ..document.errors import Refusal
 from ..document.nodes import (
     Difference,
     Displace,
@@ -28,10 +29,15 @@ from .shapes import Value
 
 
 def solids_of(nodes: Iterable[Any]) -> tuple[Node, ...]:
-    """The solids among nodes and lists of nodes, in order."""
+    """The solids among nodes and lists of nodes, in order. Raises Refusal for what is neither."""
     found: list[Node] = []
-    for node in nodes:
-        found += [node] if isinstance(node, Node) else solids_of(node)
+    for node in nodes if isinstance(nodes, Iterable) and not isinstance(nodes, str) else (nodes,):
+        if isinstance(node, Node):
+            found.append(node)
+        elif isinstance(node, Iterable) and not isinstance(node, str):
+            found += solids_of(node)
+        else:
+            raise Refusal(f"a solid is needed, not {node!r:.60}")
     return tuple(found)
 
 

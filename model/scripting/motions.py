@@ -9,7 +9,8 @@ from ..document.document import Document
 from ..document.errors import Refusal
 from ..document.nodes import Node
 from ..document.placement import affine
-from .proximity import bodies_of
+from .joining import solids_of
+from .proximity import bodies_of, check_document_given, check_tolerance
 
 if TYPE_CHECKING:
     from ..proximity.moving.sweeping import Contact
@@ -32,8 +33,12 @@ def first_contact(
     """
     from ..proximity.moving.sweeping import first_contact as contact_of
 
-    others = [standing] if isinstance(standing, Node) else list(standing)
+    others = solids_of([standing])
+    if isinstance(poses, str) or not isinstance(poses, Iterable):
+        raise Refusal(f"the poses of a way are a list of matrices, not {poses!r:.60}")
     way = [affine(pose).matrix() for pose in poses]
+    if times is not None and (isinstance(times, str) or not isinstance(times, Iterable)):
+        raise Refusal(f"the times of a way are a list of numbers, not {times!r:.60}")
     bodies = bodies_of(moving, *others, tolerance=tolerance)
     return contact_of(bodies[0], bodies[1:], way, range(len(way)) if times is None else list(times))
 
@@ -70,6 +75,7 @@ def motion(
     """The document with a motion, in which a parameter goes from `start` to `end`; one of that name is replaced."""
     from ..operations.motions import add_motion, set_motion
 
+    check_document_given(document)
     values = {"start": start, "end": end, "seconds": seconds, "steps": steps}
     if any(one.name == name for one in document.motions):
         return set_motion(document, name, parameter=parameter, **values)
@@ -89,6 +95,8 @@ def contacts_in_motion(
     """
     from ..proximity.moving.playing import play
 
+    check_document_given(document)
+    check_tolerance(tolerance)
     played = play(document, name, tolerance, between=between)
     for message in played.messages:
         if message.error:

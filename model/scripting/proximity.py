@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from ..proximity.boxes import Nearest
 
 NO_SOLID = "this is asked of solids, and an outline is none: extrude or revolve it first"
+FARTHEST = 1e10
+"""Millimetres from the origin, as of outlines."""
 
 
 def distance(one: Node, other: Node, tolerance: float = 0.05) -> float:
@@ -74,6 +76,7 @@ def in_words(one: Node, other: Node, tolerance: float = 0.05) -> str:
     from ..proximity.words import relation_words, remark_words
 
     document = document_of(one, other)
+    check_tolerance(tolerance)
     shown = document.with_(solids=tuple(root.with_(visible=True) for root in document.solids))
     solids = PairMemo().standing(shown, tolerance)
     if len(solids) != 2:
@@ -92,7 +95,8 @@ def clearances(
     solids: Document | Iterable[Node], clearance: float | None = None, tolerance: float = 0.05
 ) -> list[dict[str, Any]]:
     """The pairs of visible solids that overlap, whose gap is below the clearance, or that are apart and meant to touch,
-    as `solidtree check` has them. Without a clearance it is the document's own, else 0.
+    as `solidtree check` has them. Without a clearance it is the document's own, else 0; what is asked of single
+    pairs holds in any case.
     Raises Refusal where a solid failed, since nothing is known of its pairs.
 
     >>> [(pair["a"], pair["gap"]) for pair in clearances([box(10).named("lid"), box(10).at(10.5)], 1)]
@@ -102,6 +106,7 @@ def clearances(
     from ..solid.results import open_surface
 
     document = solids if isinstance(solids, Document) else document_of(*solids_of(solids))
+    check_tolerance(tolerance)
     answer, messages = checked(document, clearance, tolerance)
     surfaces = {root.id for root in Resolver().resolve(document).solids if open_surface(root) is not None}
     for message in messages:
@@ -116,6 +121,7 @@ def with_clearance(document: Document, clearance: float, one: str | None = None,
     >>> [pair["gap"] for pair in clearances(with_clearance(document_of(box(10), box(10).at(10.5)), 1))]
     [0.5]
     """
+    check_document_given(document)
     if one is None and other is None:
         return set_clearance(document, clearance)
     if one is None or other is None:
@@ -130,6 +136,7 @@ def meant_to_touch(document: Document, one: str, other: str) -> Document:
     >>> [pair["words"] for pair in clearances(case)]
     ['“box” and “lid” are meant to touch, and are 2 mm apart.']
     """
+    check_document_given(document)
     return check_pair(document, solid_called(document, one), solid_called(document, other), touching=True)
 
 
@@ -156,6 +163,18 @@ def inside(solid: Node, points: ArrayLike, tolerance: float = 0.05) -> NDArray[n
     return body.holds(_points(points))
 
 
+def check_tolerance(tolerance: object) -> None:
+    """Refuse what is no tolerance."""
+    if isinstance(tolerance, bool) or not isinstance(tolerance, float | int) or not 0.0 < tolerance < np.inf:
+        raise Refusal(f"a tolerance is a number above 0 mm, not {tolerance!r:.40}")
+
+
+def check_document_given(document: object) -> None:
+    """Refuse what is no document."""
+    if not isinstance(document, Document):
+        raise Refusal(f"a document is needed, such as document_of makes of solids, not {document!r:.60}")
+
+
 def _points(points: ArrayLike) -> NDArray[np.float64]:
     try:
         found = np.asarray(points, np.float64)
@@ -165,6 +184,8 @@ def _points(points: ArrayLike) -> NDArray[np.float64]:
         return found.reshape(0, 3)
     if found.ndim not in (1, 2) or found.shape[-1] != 3 or not np.isfinite(found).all():
         raise Refusal("points are rows of three finite numbers: x, y and z")
+    if len(found) and np.abs(found).max() > FARTHEST:
+        raise Refusal(f"a point is farther than {FARTHEST:g} mm from the origin; no solid is")
     return found.reshape(-1, 3)
 
 
@@ -173,8 +194,10 @@ def _body(solid: Node, tolerance: float) -> Body:
 
 
 def bodies_of(*solids: Node, tolerance: float) -> list[Body]:
+    """Raises Refusal where one has no surface."""
     from ..proximity.memo import body_of
 
+    check_tolerance(tolerance)
     results = evaluate(*solids, tolerance=tolerance).solids
     if len(results) != len(solids):
         raise Refusal(NO_SOLID)

@@ -20,8 +20,12 @@ Told = Callable[[int, int, str], None]
 
 FINER = 16
 """Parts of the way between two steps when the time of the first contact is looked for."""
-SLIDE = 20_000
+SLIDE = 4_000
 """Gaps that are looked at between two steps of a pair; what slides so near for so long counts as having met."""
+DOUBLINGS = 6
+"""How often the way between two steps is halved where parts do not go by the screw between its ends."""
+ASIDE = 1e-6
+"""The share of the parts' size by which they may go beside that."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -44,17 +48,21 @@ def first_between(
 ) -> FirstContact | None:
     """The first meeting on the way from the step before to this one, the `number`th of all, of the wanted pairs (None:
     all) that have not `met` there already."""
-    last, now = standings[number - 1], standings[number]
     steps = len(standings) - 1
+    ends = (number - 1) / steps, number / steps
+    some = None if wanted is None else {part for pair in wanted for part in pair}
+    way = _sampled(parts, standings[number - 1], standings[number], ends, some)
     bodies = parts.bodies
-    both = np.array([boxes_of(bodies, last), boxes_of(bodies, now)])
-    swept = np.stack((both[:, :, 0].min(axis=0), both[:, :, 1].max(axis=0)), axis=1)
+    shapes, poses = (np.array([getattr(standing, name) for standing in way]) for name in ("shapes", "poses"))
+    boxes = np.array([boxes_of(bodies, standing) for standing in way])
+    swept = np.stack((boxes[:, :, 0].min(axis=0), boxes[:, :, 1].max(axis=0)), axis=1)
+    recut = (shapes != shapes[0]).any(axis=0)
     bulge = np.zeros(len(swept))
-    moved = np.flatnonzero((last.shapes == now.shapes) & (np.abs(last.poses - now.poses).max(axis=(1, 2)) > 0.0))
+    moved = np.flatnonzero(~recut & (np.abs(poses - poses[0]).max(axis=(0, 2, 3)) > 0.0))
     for part in moved.tolist():  # what turns goes by an arc, which leaves the box of its ends
-        path = Path([last.poses[part], now.poses[part]], (0.0, 1.0))
-        if path.screws[0].angle > 0.0:
-            bulge[part] = 0.5 * float(path.speeds(corners_of(bodies[int(last.shapes[part])].bounds))[0])
+        path = Path(poses[:, part], np.arange(len(way)))
+        if any(screw.angle > 0.0 for screw in path.screws):
+            bulge[part] = 0.5 * float(path.speeds(corners_of(bodies[int(shapes[0, part])].bounds)).max())
     swept[:, 0] -= bulge[:, None]
     swept[:, 1] += bulge[:, None]
     goes = np.zeros(len(swept), bool)
@@ -62,13 +70,12 @@ def first_between(
     best: FirstContact | None = None
     until = 1.0
     for one, other in pairs_near(swept, 0.0) if wanted is None else sorted(wanted):
-        recut = last.shapes[one] != now.shapes[one] or last.shapes[other] != now.shapes[other]
-        if (one, other) in met or recut or not (goes[one] or goes[other]):
+        if (one, other) in met or recut[one] or recut[other] or not (goes[one] or goes[other]):
             continue
         tell(steps + number, 2 * steps, f"{parts.names[one]}, {parts.names[other]}")
-        first, second = bodies[int(now.shapes[one])], bodies[int(now.shapes[other])]
-        shares = np.array([number - 1, number]) / steps
-        found = _meeting(first, second, [_against(standing, one, other) for standing in (last, now)], until)
+        first, second = bodies[int(shapes[0, one])], bodies[int(shapes[0, other])]
+        shares = np.array(ends)
+        found = _meeting(first, second, [_against(standing, one, other) for standing in way], until)
         if found is None:
             continue
         until = found[0]
@@ -92,6 +99,38 @@ def first_between(
     return best
 
 
+def _sampled(
+    parts: MovingParts, last: Standing, now: Standing, ends: tuple[float, float], some: set[int] | None
+) -> list[Standing]:
+    """Evenly between two steps at shares of the motion, the steps included: so many that some parts, None: all, go by
+    the screws between them."""
+    found = [last, now]
+    for _ in range(DOUBLINGS):
+        shares = np.linspace(*ends, 2 * len(found) - 1)[1::2]
+        middles = [parts.at(float(share)) for share in shares]
+        legs = zip(found[:-1], middles, found[1:], strict=True)
+        if not any(_beside(parts.bodies, *leg, some) for leg in legs):
+            break
+        found = [found[0], *(standing for pair in zip(middles, found[1:], strict=True) for standing in pair)]
+    return found
+
+
+def _beside(bodies: list[Body], one: Standing, middle: Standing, other: Standing, some: set[int] | None) -> bool:
+    """Whether a part goes beside the screw from one standing to the other."""
+    moves = np.abs(middle.poses - one.poses).max(axis=(1, 2)) + np.abs(other.poses - one.poses).max(axis=(1, 2))
+    whole = (one.shapes == middle.shapes) & (one.shapes == other.shapes)
+    for part in np.flatnonzero(whole & (moves > 0.0)).tolist():
+        body = bodies[int(one.shapes[part])]
+        if body.empty or (some is not None and part not in some):
+            continue
+        expected = Path([one.poses[part], other.poses[part]], (0.0, 1.0)).pose(0.5)
+        corners = corners_of(body.bounds)
+        aside = np.linalg.norm(mapped(expected, corners) - mapped(middle.poses[part], corners), axis=1).max()
+        if aside > ASIDE * float(np.linalg.norm(np.ptp(body.bounds, axis=0))):
+            return True
+    return False
+
+
 def _against(standing: Standing, one: int, other: int) -> Floats:
     """(4, 4) the other's pose in the first one's axes."""
     return inverse_of(standing.poses[one]) @ standing.poses[other]
@@ -103,5 +142,10 @@ def _meeting(one: Body, other: Body, poses: list[Floats], until: float) -> tuple
     if np.abs(np.array(poses) - poses[0]).max() == 0.0:
         return None
     path = Path(poses, np.linspace(0.0, 1.0, len(poses)))
-    passed = advance(other, one, path, closeness(one, other), until, most=SLIDE)
-    return (passed.time, passed.place) if passed.met and passed.time > 0.0 else None
+    near = closeness(one, other)
+    start = one.tree.gap(other.tree, 4.0 * near, path.poses[0]).length
+    if 0.0 < start < 4.0 * near:  # they begin nearer to each other than counts as a contact elsewhere
+        near = start / 4.0
+    passed = advance(other, one, path, near, until, most=SLIDE)
+    met = passed.met or passed.looked >= SLIDE
+    return (passed.time, passed.place) if met and passed.time > 0.0 else None

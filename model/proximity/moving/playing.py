@@ -23,6 +23,8 @@ from .parts import MovingParts, Standing, boxes_of, motion_called, pairs_near
 from .screws import Path
 
 Floats = NDArray[np.float64]
+HALVINGS = 12
+"""Of the way between two steps, to find the time of a contact."""
 STILL = 1e-13
 """The share of the coordinates below which two parts have not moved against each other."""
 
@@ -152,7 +154,8 @@ def play(
 
     Looked at are pairs of visible solids. Listed are those that overlap, that touch and are not meant to, and that are
     nearer than the document's checks ask. The first contact is that of the pairs that meet in a step; with `between`
-    all that come near are followed from step to step, so that nothing is jumped over. Raises Refusal.
+    all that come near are followed from step to step, but for parts that change their shape, so that nothing is jumped
+    over. Raises Refusal.
     """
     motion = motion_called(document, name)
     steps = motion.steps
@@ -169,10 +172,15 @@ def play(
         tell(steps + number, 2 * steps, "Looking for contacts")
         touches.append(look.touches(standing))
         if number and early is None:
-            before, now = (_meeting_pairs(listed) for listed in touches[-2:])
-            wanted = None if between else now - before
-            if between or wanted:
-                early = first_between(parts, standings, number, before, wanted, tell)
+            before, now = (_ranks(listed) for listed in touches[-2:])
+            worse = {pair for pair, rank in now.items() if rank > before.get(pair, 0)}
+            if between or worse:
+                early = first_between(parts, standings, number, set(before), None if between else worse, tell)
+                # Parts that change their shape, or touched already, are not followed: their way is halved.
+                recut = standings[number - 1].shapes != standing.shapes
+                left = worse if early is None else {p for p in worse if p in before or recut[list(p)].any()}
+                if left:
+                    early = _halved(look, number, left, before, touches[-1], early)
     count = len(parts.roots)
     moves = np.array([_from_rest(rest, standing) for standing in standings]).reshape(steps + 1, count, 4, 4)
     return Played(
@@ -186,6 +194,35 @@ def play(
         early,
         tuple(parts.messages),
     )
+
+
+def _halved(
+    look: _Look,
+    number: int,
+    pairs: set[tuple[int, int]],
+    before: dict[tuple[int, int], int],
+    listed: tuple[Touch, ...],
+    early: FirstContact | None,
+) -> FirstContact | None:
+    """The first time between the step before and the `number`th at which some of the pairs are in a worse way than
+    there, as they are in that step, by halving; `early` where that is earlier."""
+    parts = look.parts
+    motion = parts.motion
+    low, high = (number - 1) / motion.steps, number / motion.steps
+    found = [touch for touch in listed if (touch.one, touch.other) in pairs]
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2.0
+        standing = parts.at(middle)
+        seen = [touch for pair in sorted(pairs) if (touch := look.touch(*pair, standing)) is not None]
+        worse = [touch for touch in seen if _rank(touch) > before.get((touch.one, touch.other), 0)]
+        if worse:
+            high, found = middle, worse
+        else:
+            low = middle
+    time = high * motion.seconds
+    if early is not None and early.time <= time:
+        return early
+    return FirstContact(time, found[0].one, found[0].other, found[0].place)
 
 
 def _from_rest(rest: Standing, standing: Standing) -> Floats:
@@ -203,7 +240,7 @@ class _Look:
     """Contacts from step to step: what is known of a pair holds until one moves against the other."""
 
     def __init__(self, parts: MovingParts, document: Document) -> None:
-        self._parts = parts
+        self.parts = parts
         checks = document.checks
         self._clearance = checks.clearance
         self._most = max([checks.clearance, *(pair.clearance or 0.0 for pair in checks.pairs)])
@@ -217,10 +254,10 @@ class _Look:
 
     def touches(self, standing: Standing) -> tuple[Touch, ...]:
         """The worst first: overlaps by their volume, then by gap."""
-        boxes = boxes_of(self._parts.bodies, standing)
+        boxes = boxes_of(self.parts.bodies, standing)
         found = []
         for one, other in pairs_near(boxes, 0.5 * self._most * (1.0 + 1e-9) + self._margin(boxes)):
-            touch = self._touch(one, other, standing)
+            touch = self.touch(one, other, standing)
             if touch is not None:
                 found.append(touch)
         found.sort(key=lambda touch: (touch.gap, -(touch.overlap or 0.0), touch.one, touch.other))
@@ -230,7 +267,8 @@ class _Look:
     def _margin(boxes: Floats) -> float:
         return 1e-11 * float(np.nanmax(np.abs(boxes), initial=1.0))
 
-    def _touch(self, one: int, other: int, standing: Standing) -> Touch | None:
+    def touch(self, one: int, other: int, standing: Standing) -> Touch | None:
+        """How a pair meets there; None where that is as asked."""
         own = self._own.get((one, other))
         asked = self._clearance if own is None else own.clearance
         asked = self._clearance if asked is None else asked
@@ -256,10 +294,20 @@ class _Look:
             if np.abs(known[2] - pose).max() <= STILL * max(1.0, float(np.abs(pose).max())):
                 return known[3]
             faces = known[3].faces
-        bodies = self._parts.bodies
+        bodies = self.parts.bodies
         stand = relation_moved(bodies[shapes[0]], bodies[shapes[1]], pose, limit, faces)
         self._known[one, other] = (*shapes, pose, stand)
         return stand
+
+
+def _rank(touch: Touch) -> int:
+    """The higher the worse."""
+    return (APART, TOUCHING).index(touch.kind) if touch.kind in (APART, TOUCHING) else 2
+
+
+def _ranks(touches: tuple[Touch, ...]) -> dict[tuple[int, int], int]:
+    """Of the pairs that meet."""
+    return {(touch.one, touch.other): _rank(touch) for touch in touches if touch.kind != APART}
 
 
 def _meeting_pairs(touches: tuple[Touch, ...]) -> set[tuple[int, int]]:

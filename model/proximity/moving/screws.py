@@ -24,7 +24,10 @@ class Path:
 
     def __init__(self, poses: ArrayLike, times: ArrayLike) -> None:
         self.poses = _rigid(poses)
-        self.times: Floats = np.array(times, np.float64).reshape(-1)
+        try:
+            self.times: Floats = np.array(times, np.float64).reshape(-1)
+        except (TypeError, ValueError):
+            raise Refusal("the times of a path are numbers, each larger than the one before") from None
         if len(self.times) != len(self.poses):
             raise Refusal(f"a path has a time for each of its {len(self.poses)} poses, not {len(self.times)} times")
         if not np.isfinite(self.times).all() or (np.diff(self.times) <= 0.0).any():

@@ -23,7 +23,7 @@ Floats = NDArray[np.float64]
 
 CLOSE = 1e-6
 """The share of the bodies' size within which they have met, where no tolerance is given."""
-MOST = 1_000_000
+MOST = 20_000
 """Gaps that are looked at on the way of one body past another."""
 
 
