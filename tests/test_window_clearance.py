@@ -142,6 +142,11 @@ def test_the_list_follows_a_part_that_is_moved_and_keeps_the_chosen_pair(checked
     click(checked, 2)
     ids = {root.name: root.id for root in checked.document.solids}
     checked.session.do("move", [ids["pin"]], 0, 0, -20)
+    checked.session.do("insert", box(2).at(50).named("late"), label="Add box")
+    settled(checked)
+    late = checked.node("late").id
+    assert checked.window.viewport.viewer.scene.faded == {ids["pin"], ids["foot"], ids["ball"], late}
+    checked.session.do("delete", [late])
     settled(checked)
     assert listed(checked) == [(("base", "foot"), "near"), (("base", "lid"), "near")]
     assert checked.window.clearance.page.table.current.names == ("base", "lid")

@@ -39,6 +39,7 @@ class PairPicture(Tool):
         self._viewer: Viewer | None = None
         self.chosen: Finding | None = None
         window.viewport.add_tool(self)
+        window.viewport.displayed.connect(self._fade)
 
     def attached(self, viewer: Viewer) -> None:
         from ...render.handles.clearance_marks import ClearanceMarks
@@ -93,6 +94,12 @@ class PairPicture(Tool):
             words = length_text(finding.gap) if finding.points is not None else volume_text(overlap or 0.0)
             words = "contact" if finding.points is not None and finding.gap == 0.0 else words
             marks.show(MarkedPair(finding.bounds.mean(axis=0), words, finding.points, vertices, triangles))
-            viewer.set_faded(key for key in viewer.scene.meshes if key not in finding.ids)
+            self._fade()
         viewer.needs_render = True
         self._viewport.refresh()
+
+    def _fade(self) -> None:
+        """All but the chosen pair, also of what comes into the picture later."""
+        finding, viewer = self.chosen, self._viewer
+        if finding is not None and viewer is not None:
+            viewer.set_faded(key for key in viewer.scene.meshes if key not in finding.ids)
